@@ -96,7 +96,7 @@ void save_report(const std::string& file, const std::string& label, const Conten
 std::map<std::string, double> values_of(const RemeshResult& result) {
   std::map<std::string, double> values;
   for (const DescriptorComparison& row :
-       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
+       compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh))) {
     values[row.key + "_scan"] = row.reference;
     values[row.key] = row.value;
     values[row.key + "_error_percent"] = row.error_percent;

@@ -49,7 +49,7 @@ ParameterList remesh_parameters() {
           "As published only. The filter stops if overhangs cover more of the sphere than this. An "
           "overhang is surface that a ray from the centroid hits after its first hit."),
       option_parameter(
-          "MendLimit", defaults.max_repaired_area_percent, mended_area_limit_option,
+          "MendLimit", defaults.max_repaired_area_percent, repaired_area_limit_option,
           "Max. repaired area (%)",
           "The filter fills holes. At non-manifold edges it removes flaps and internal walls. It "
           "stops if this changes more of the area than this limit."),

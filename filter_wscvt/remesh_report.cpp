@@ -48,15 +48,15 @@ std::vector<std::string> short_table(const RemeshResult& result) {
   add_count("vertices", result.input.vertices, result.mesh.points.size());
   add_count("faces", result.input.faces, result.mesh.triangles.size());
   for (const DescriptorComparison& row :
-       compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh))) {
+       compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh))) {
     const auto label = short_labels.find(row.key);
     if (label == short_labels.end()) continue;
     cells.push_back({"  " + label->second, format_number(row.reference, 5),
                      format_number(row.value, 5), format_error(row.error_percent)});
   }
-  add("mean edge ratio", is_scan ? result.original_quality.edge_ratio.mean : none,
+  add("mean edge ratio", is_scan ? result.scan_quality.edge_ratio.mean : none,
       result.quality.edge_ratio.mean);
-  add("smallest angle, degrees", is_scan ? result.original_quality.smallest_angle : none,
+  add("smallest angle, degrees", is_scan ? result.scan_quality.smallest_angle : none,
       result.quality.smallest_angle);
   if (result.distances) {
     const double radius = result.input.equivalent_radius;

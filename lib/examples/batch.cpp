@@ -30,7 +30,7 @@ int main(int count, char** arguments) {
       wscvt::write_mesh(result.mesh, mesh.string());
       wscvt::write_report((folder / "grains.csv").string(), result, {scan.filename().string(), ""},
                           all_threads);
-      std::cout << scan.filename().string() << ": sphericity " << result.original.sphericity
+      std::cout << scan.filename().string() << ": sphericity " << result.scan.sphericity
                 << ", of the remesh " << result.remesh.sphericity << '\n';
     } catch (const std::exception& error) {
       std::cerr << scan.string() << ": " << error.what() << '\n';

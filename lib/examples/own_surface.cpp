@@ -43,7 +43,7 @@ int main(int count, char** arguments) try {
   options.method = wscvt::AsPublishedOptions();
   const wscvt::RemeshResult result = wscvt::remesh(BallWithBump(), options);
   wscvt::write_mesh(result.mesh, arguments[1]);
-  std::cout << "volume of the formula " << result.original.volume << ", of the mesh "
+  std::cout << "volume of the formula " << result.scan.volume << ", of the mesh "
             << result.remesh.volume << '\n';
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -87,7 +87,7 @@ GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, Me
     if (needs_scan) scan.shape = std::move(shape.scan);
     shape.scan = scan.shape;
     if (measures.contacts) {
-      if (!scan.contacts) scan.contacts.emplace(result.repaired_scan, result.original, execution);
+      if (!scan.contacts) scan.contacts.emplace(result.repaired_scan, result.scan, execution);
       shape.contacts = scan.contacts->error_of(result.mesh, execution);
     }
   } catch (const Error& failure) {

@@ -81,8 +81,8 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
       ->group(finer_settings);
   AddClumpOption add{app};
   for_each_clump_option(arguments.options, add);
-  for (const std::string_view key : {points_option.key, envelope_option.key,
-                                     mended_area_limit_option.key, most_spheres_option.key}) {
+  for (const std::string_view key : {points_option.key, shrink_wrap_option.key,
+                                     repaired_area_limit_option.key, most_spheres_option.key}) {
     app.get_option("--" + std::string(key))->group(finer_settings);
   }
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.frame.frame)

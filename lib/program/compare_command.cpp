@@ -56,7 +56,7 @@ void compare_parts(const CompareArguments& arguments) {
   result.grain = check_mesh(std::move(reference.mesh), MeshCheckOptions(), reading).mesh;
   result.measures =
       measure_parts(result.parts, result.grain, work.execution().part(reading_share, 1.0));
-  result.original = describe_shape(result.grain, work.execution().part(1.0, 1.0));
+  result.scan = describe_shape(result.grain, work.execution().part(1.0, 1.0));
   for (const std::string& name : common.reports) {
     work.write(name, [&](const std::string& path, const Execution& execution) {
       write_report(path, result, origin_of(measure.grain), execution);

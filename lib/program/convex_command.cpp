@@ -74,8 +74,8 @@ int run(const ConvexArguments& arguments) {
   PartsResult result = make_parts(std::move(file.mesh), arguments.remesh, arguments.options,
                                   work.execution().part(reading_share, 1.0));
   result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
-  const SimulationFrame frame = simulation_frame(result.original, arguments.frame);
-  const MassProperties mass = in_frame(mass_properties(result.original), frame);
+  const SimulationFrame frame = simulation_frame(result.scan, arguments.frame);
+  const MassProperties mass = in_frame(mass_properties(result.scan), frame);
   ConvexParts written = result.parts;
   for (IndexedMesh& part : written) part = in_frame(std::move(part), frame);
   for (const std::string& output : arguments.outputs) {

@@ -29,7 +29,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 
 namespace wscvt::program {
 
@@ -103,7 +103,7 @@ std::string short_name(const std::string& file) { return fs::path(file).filename
 /// Returns the overhang fraction; 0 for a star-shaped grain.
 double overhang_of(const OffsetSeries& offset, const IndexedMesh& mesh, const QuickShape& quick,
                    const Execution& execution) {
-  return has_offset(offset) ? folded_solid_angle(mesh, quick.shape.centroid, execution) : 0.0;
+  return has_offset(offset) ? overhang_solid_angle(mesh, quick.shape.centroid, execution) : 0.0;
 }
 
 void write_coefficients(const std::string& path, const GrownGrain& grain) {

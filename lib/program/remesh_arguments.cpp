@@ -39,7 +39,7 @@ constexpr Marked marked[] = {
 
 /// Options without effect on a surface that is known exactly; see remesh.
 constexpr std::string_view of_a_scan[] = {
-    points_option.key,          envelope_option.key,     mended_area_limit_option.key,
+    points_option.key,          shrink_wrap_option.key,  repaired_area_limit_option.key,
     harmonic_degree_option.key, max_overhang_option.key, EnumerationTable<HandleAction>::key,
     max_handle_loop_option.key,
 };

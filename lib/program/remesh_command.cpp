@@ -92,7 +92,7 @@ int run(const RemeshArguments& arguments) {
 
   options.measures.written = [path = arguments.output,
                               frame = simulation.options.frame](const RemeshResult& result) {
-    return as_written(in_frame(result.mesh, simulation_frame(result.original, frame)), path);
+    return as_written(in_frame(result.mesh, simulation_frame(result.scan, frame)), path);
   };
 
   Work work(common);
@@ -113,7 +113,7 @@ int run(const RemeshArguments& arguments) {
   result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
 
   const ReportOrigin origin = origin_of(arguments.scan);
-  const SimulationFrame frame = simulation_frame(result.original, simulation.options.frame);
+  const SimulationFrame frame = simulation_frame(result.scan, simulation.options.frame);
   work.write(arguments.output, [&](const std::string& path, const Execution& execution) {
     const MeshAttributes attributes =
         carries ? carried_attributes(scan, file.attributes, result.mesh, execution)

@@ -72,7 +72,7 @@ py::array node_array(const Remesh& one, const std::string& frame, double scale, 
   if (frame != "input" || scale != 1.0 || size != 0.0) require_whole(one, "the node table");
   IndexedMesh mesh = one.result.mesh;
   if (!is_pickled(one)) {
-    mesh = in_frame(std::move(mesh), simulation_frame(one.result.original, options.frame));
+    mesh = in_frame(std::move(mesh), simulation_frame(one.result.scan, options.frame));
   }
   const NodeTable table = node_table(std::move(mesh));
   // A structured array has names for its columns, and pandas reads it.

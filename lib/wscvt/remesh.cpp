@@ -44,7 +44,7 @@ double clean_wrap(const IndexedMesh& scan, RemeshOptions options, int node_count
   options.target = {};
   options.measures = {};
   for (const double percent : {2.0, usual_opening_percent}) {
-    options.envelope.opening_percent = percent;
+    options.shrink_wrap.opening_percent = percent;
     try {
       const RemeshResult wrapped = remesh(scan, options, execution);
       if (on_scan_report(wrapped)->nodes.self_intersections == 0) return percent;
@@ -67,7 +67,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   RemeshResult result = remesh_to_options(grain, options, execution.part(0.3, 1.0));
   const OnScanReport* on_scan = on_scan_report(result);
   if (on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0 &&
-      options.envelope.opening_percent == 0.0) {
+      options.shrink_wrap.opening_percent == 0.0) {
     result.clean_wrap_percent =
         clean_wrap(grain.scan.mesh, options, static_cast<int>(result.mesh.points.size()),
                    execution.part(1.0, 1.0));

@@ -237,7 +237,7 @@ TEST(Clump, TellsTheMassOfUnionAndSum) {
   double sum = 0.0;
   for (const Sphere& sphere : clump.spheres) sum += 4.0 / 3.0 * pi * std::pow(sphere.radius, 3);
   EXPECT_NEAR(clump.summed.mass.volume, sum, 1e-12);
-  EXPECT_NEAR(clump.summed.error.volume_percent, 100.0 * (sum / clump.original.volume - 1.0), 1e-9);
+  EXPECT_NEAR(clump.summed.error.volume_percent, 100.0 * (sum / clump.scan.volume - 1.0), 1e-9);
   // Steiner: the trace of a ball's tensor about its own centre is 1.2 V r^2, and moving it adds 2 V
   // d^2.
   double trace = 0.0;

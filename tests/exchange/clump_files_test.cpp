@@ -75,17 +75,15 @@ TEST_F(ClumpFiles, FrameAndSizeAreThoseOfTheGrain) {
   const double scale = 5.0 / made_clump().equivalent_radius;
   const std::vector<Sphere> read = read_clump(path("clump.csv"));
   const Sphere& first = made_clump().spheres[2];
-  EXPECT_LT((read[2].centre - scale * (first.centre - made_clump().original.centroid)).norm(),
-            1e-9);
+  EXPECT_LT((read[2].centre - scale * (first.centre - made_clump().scan.centroid)).norm(), 1e-9);
   EXPECT_NEAR(read[2].radius, scale * first.radius, 1e-12);
 }
 
 TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
-  const SimulationFrame frame =
-      simulation_frame(made_clump().original, {Frame::Principal, 1.0, 0.0});
+  const SimulationFrame frame = simulation_frame(made_clump().scan, {Frame::Principal, 1.0, 0.0});
   const Sphere& last = made_clump().spheres[2];
   const Vector3 centre = frame.point(last.centre);
-  const Vector3 moments = mass_properties(made_clump().original).principal_moments;
+  const Vector3 moments = mass_properties(made_clump().scan).principal_moments;
 
   // As data/clumps/triangular_flat.csv of DEM-Engine: header, rows, comments.
   const std::string chrono = written("clump.chrono.csv");
@@ -171,7 +169,7 @@ TEST_F(ClumpFiles, MoleculeHasMassAndMomentsOfTheTurnedBox) {
     EXPECT_EQ(inertia[k + 3], 0.0);
   }
 
-  const SimulationFrame to = simulation_frame(clump.original, {Frame::Principal, 2.0, 0.0});
+  const SimulationFrame to = simulation_frame(clump.scan, {Frame::Principal, 2.0, 0.0});
   const std::vector<double> places = section_of(text, "Coords");
   const std::vector<double> types = section_of(text, "Types");
   const std::vector<double> diameters = section_of(text, "Diameters");

@@ -117,7 +117,7 @@ TEST_F(SimulationFiles, DescriptionHoldsTheMassOfTheScanInTheFrame) {
 }
 
 TEST_F(SimulationFiles, AllLieInTheFrameOfTheScan) {
-  const SimulationFrame frame = simulation_frame(result->original, options.frame);
+  const SimulationFrame frame = simulation_frame(result->scan, options.frame);
   write_nodes(path("nodes.csv"), *result, options);
   const auto records = test::csv_records(content("nodes.csv"));
   ASSERT_EQ(records.size(), 121U);
@@ -146,7 +146,7 @@ TEST_F(SimulationFiles, GridIsOfTheScanUnlessTheRemeshIsAsked) {
   options.surface = GridSurface::Remesh;
   write_distance_grid(path("remesh.npy"), without_scan(), options, {}, Execution(2));
   EXPECT_NE(content("scan.npy"), content("remesh.npy"));
-  const SimulationFrame frame = simulation_frame(result->original, options.frame);
+  const SimulationFrame frame = simulation_frame(result->scan, options.frame);
   EXPECT_EQ(content("scan.npy"),
             grid_npy(distance_grid(in_frame(*scan, frame), options.grid, Execution(2))));
 }

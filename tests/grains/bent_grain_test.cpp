@@ -6,8 +6,8 @@
 #include <map>
 
 #include "support/test_shapes.h"
-#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 
 namespace wscvt {
 namespace {
@@ -33,7 +33,7 @@ TEST(BentGrains, AreFarFromStarShaped) {
   for (const auto& [name, fold] : folds) {
     const CheckedMesh mesh =
         check_mesh(test::bent_grain_mesh(test::bent_grain(name), 5000), {}, Execution(1));
-    EXPECT_GT(folded_solid_angle(mesh.mesh, mesh.report.centroid, Execution(1)), fold) << name;
+    EXPECT_GT(overhang_solid_angle(mesh.mesh, mesh.report.centroid, Execution(1)), fold) << name;
   }
 }
 

@@ -10,8 +10,8 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 
 namespace wscvt {
 namespace {
@@ -21,7 +21,7 @@ CheckedMesh checked(const IndexedMesh& mesh) {
 }
 
 double fold_about_centroid(const CheckedMesh& mesh) {
-  return folded_solid_angle(mesh.mesh, mesh.report.centroid, Execution(1));
+  return overhang_solid_angle(mesh.mesh, mesh.report.centroid, Execution(1));
 }
 
 TEST(MarchingCubes, CloseEveryPattern) {

@@ -758,10 +758,10 @@ TEST(Filter, LogHoldsCountsInFull) {
 TEST(Filter, LogHoldsTheSmallestAngleAndTheMeanEdgeRatioOfBothMeshes) {
   RemeshResult result;
   result.input.input_vertices = 500;
-  result.original_quality.smallest_angle = 7.5;
-  result.original_quality.mean_smallest_angle = 33.25;
-  result.original_quality.edge_ratio.mean = 3.5;
-  result.original_quality.edge_ratio.maximum = 9.25;
+  result.scan_quality.smallest_angle = 7.5;
+  result.scan_quality.mean_smallest_angle = 33.25;
+  result.scan_quality.edge_ratio.mean = 3.5;
+  result.scan_quality.edge_ratio.maximum = 9.25;
   result.quality.smallest_angle = 31.5;
   result.quality.mean_smallest_angle = 52.25;
   result.quality.edge_ratio.mean = 1.25;
@@ -808,8 +808,7 @@ TEST(Filter, LogOfARemeshEndsByItsVerdict) {
   EXPECT_EQ(good.back().text.rfind("400 nodes, volume exact, area ", 0), 0U) << good.back().text;
   EXPECT_EQ(good.back().text.substr(good.back().text.size() - 6), ": good") << good.back().text;
   const std::vector<filter::LogLine> bad = log_of(10);
-  EXPECT_NE(bad.back().text.find(": see above"), std::string::npos)
-      << bad.back().text;
+  EXPECT_NE(bad.back().text.find(": see above"), std::string::npos) << bad.back().text;
   EXPECT_TRUE(bad[bad.size() - 2].warning);
   const auto names_sdq = [](const filter::LogLine& line) {
     return line.text.find("Sdq") != std::string::npos;

@@ -30,7 +30,7 @@ TEST(DetailedDescriptors, Sphere) {
   EXPECT_NEAR(d.convexity, 1.0, 1e-12);
   EXPECT_NEAR(d.inscribed_sphere.radius, radius, 1.5e-2);
   EXPECT_NEAR(d.orientation.compactness, 1.0, 1e-9);
-  EXPECT_EQ(d.folded_share, 0.0);
+  EXPECT_EQ(d.overhang_fraction, 0.0);
   ASSERT_TRUE(d.has_radius);
   EXPECT_EQ(d.roundness.roundness, 1.0);
   EXPECT_NEAR(d.roundness.ball_radius, DetailedOptions().roundness_ball * radius, 1e-2);
@@ -78,7 +78,7 @@ TEST(DetailedDescriptors, Cube) {
   EXPECT_FALSE(d.has_roughness);
   const DetailedDescriptors fine = in_detail(test::subdivided(test::box(1, 1, 1), 5));
   EXPECT_LT(fine.roundness.roundness, 0.1);
-  EXPECT_GT(fine.roundness.corner_area_share, 0.1);
+  EXPECT_GT(fine.roundness.corner_area_fraction, 0.1);
   EXPECT_GT(fine.roughness.sq, 1e-3);
 }
 
@@ -142,8 +142,8 @@ TEST(DetailedDescriptors, ARadiusIsMeasuredWhereLittleFolds) {
     const double degree = test::pi / 180.0;
     const double share = 2.0 * (0.5 - std::cos((60 + overhang) * degree));
     // 128 segments cut the rims by 1 - cos(pi / 128), 0.03 %.
-    EXPECT_NEAR(d.folded_share, share, 1e-3);
-    EXPECT_EQ(d.has_radius, share < largest_measured_fold);
+    EXPECT_NEAR(d.overhang_fraction, share, 1e-3);
+    EXPECT_EQ(d.has_radius, share < largest_measured_overhang);
     // What asks for no radius is there in any case.
     for (const DescriptorValue& row : list_descriptors(d)) {
       // Its edges are too long for roughness.

@@ -24,7 +24,7 @@ TEST(MeshQuality, RegularTetrahedron) {
   EXPECT_NEAR(q.edge_ratio.mean, 1.0, 1e-14);
   EXPECT_NEAR(q.smallest_angle, 60.0, 1e-12);
   EXPECT_NEAR(q.mean_smallest_angle, 60.0, 1e-12);
-  EXPECT_EQ(q.valence_six_share, 0.0);
+  EXPECT_EQ(q.valence_six_fraction, 0.0);
 }
 
 TEST(MeshQuality, Cube) {
@@ -54,13 +54,13 @@ TEST(MeshQuality, NeedleAngleIsExactNearZero) {
 TEST(MeshQuality, SubdividedIcosahedronHasTwelveVerticesOfFive) {
   const IndexedMesh mesh = test::sphere(3);
   const auto vertices = static_cast<double>(mesh.points.size());
-  EXPECT_NEAR(measure_quality(mesh).valence_six_share, (vertices - 12.0) / vertices, 1e-15);
+  EXPECT_NEAR(measure_quality(mesh).valence_six_fraction, (vertices - 12.0) / vertices, 1e-15);
 }
 
 TEST(MeshQuality, RegularVerticesHaveSixEdgesNotMoreNorFewer) {
   // Two of the vertices are in as many faces as there are segments, all others in four.
   for (const int segments : {5, 6, 7, 12}) {
-    EXPECT_EQ(measure_quality(test::bicone(segments)).valence_six_share,
+    EXPECT_EQ(measure_quality(test::bicone(segments)).valence_six_fraction,
               segments == 6 ? 2.0 / 8.0 : 0.0)
         << segments;
   }
@@ -81,7 +81,7 @@ TEST(MeshQuality, DoesNotDependOnPoseScaleOrOrder) {
     EXPECT_NEAR(q.edge_ratio.maximum, reference.edge_ratio.maximum, 1e-12);
     EXPECT_NEAR(q.smallest_angle, reference.smallest_angle, 1e-10);
     EXPECT_NEAR(q.mean_smallest_angle, reference.mean_smallest_angle, 1e-10);
-    EXPECT_EQ(q.valence_six_share, reference.valence_six_share);
+    EXPECT_EQ(q.valence_six_fraction, reference.valence_six_fraction);
   }
 }
 

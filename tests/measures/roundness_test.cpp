@@ -51,7 +51,7 @@ TEST(Roundness, OfABallAndOfACapsuleIsOne) {
   for (const auto& body : {test::ellipsoid({1, 1, 1}), test::capsule(1.5, 1.0)}) {
     const Roundness r = wadell_roundness(test::scan_of(body, 2.6, 0.12), 1.0, ball, Execution(1));
     EXPECT_EQ(r.roundness, 1.0);
-    EXPECT_LT(r.corner_area_share, 0.01);
+    EXPECT_LT(r.corner_area_fraction, 0.01);
   }
 }
 
@@ -86,7 +86,7 @@ Roundness ellipsoid_roundness(const Vector3& axes) {
   }
   Roundness result;
   result.roundness = corners / (turn * inscribed_radius);
-  result.corner_area_share = corners / area;
+  result.corner_area_fraction = corners / area;
   return result;
 }
 
@@ -104,7 +104,7 @@ TEST(Roundness, OfEllipsoidsIsTheMeanByTurn) {
     const Roundness r = wadell_roundness(mesh, c.axes.minCoeff(), ball, Execution(1));
     // Curvature is a mean over the ball.
     EXPECT_NEAR(r.roundness, expected.roundness, 0.03);
-    EXPECT_NEAR(r.corner_area_share, expected.corner_area_share, 0.03);
+    EXPECT_NEAR(r.corner_area_fraction, expected.corner_area_fraction, 0.03);
     EXPECT_LT(expected.roundness, 0.8);
   }
 }

@@ -234,14 +234,14 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
     if (q < 0.05) clipped += square(0.05);
   }
   EXPECT_NEAR(d.sdq, std::sqrt(whole / area), 1e-9);
-  EXPECT_NEAR(d.sdq_clipped_share, clipped / whole, 1e-9);
+  EXPECT_NEAR(d.sdq_clipped_fraction, clipped / whole, 1e-9);
   EXPECT_NEAR(d.sdq_half_clip, std::sqrt(half / area), 1e-9);
   const std::string told = sdq_clip_sentence("the grain", d);
   EXPECT_EQ(told.rfind("Sdq (invariant form) of the grain is not reliable", 0), 0U) << told;
   EXPECT_NE(told.find("0.05"), std::string::npos) << told;
   // A ball has no walls.
   const ShapeDescriptors sphere = describe_shape(test::sphere(3), Execution(1));
-  EXPECT_EQ(sphere.sdq_clipped_share, 0.0);
+  EXPECT_EQ(sphere.sdq_clipped_fraction, 0.0);
   EXPECT_EQ(sphere.sdq_half_clip, sphere.sdq);
   EXPECT_EQ(sdq_clip_sentence("the grain", sphere), "");
 }

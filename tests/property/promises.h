@@ -16,8 +16,8 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
-#include "wscvt/repair/envelope.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/shrink_wrap.h"
 #include "wscvt/report/report.h"
 #include "wscvt/surface/self_intersections.h"
 
@@ -105,21 +105,22 @@ inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions
       if (!p.allFinite()) return "checked mesh: a coordinate that is not finite";
     }
     if (!all_finite({report.volume, report.area, report.equivalent_radius, report.centroid.x(),
-                     report.centroid.y(), report.centroid.z(), report.duplicate_area_share,
-                     report.folded_area_share, report.flap_area_share, report.filled_area_share,
-                     report.inner_volume_share, report.dropped_volume_share}) ||
+                     report.centroid.y(), report.centroid.z(), report.duplicate_area_fraction,
+                     report.back_to_back_area_fraction, report.flap_area_fraction,
+                     report.filled_area_fraction, report.inner_volume_fraction,
+                     report.dropped_volume_fraction}) ||
         !(report.volume > 0.0 && report.area > 0.0) || report.genus < 0) {
       return "a measure in the report of the check";
     }
     if (report.vertices != checked.mesh.points.size() ||
         report.faces != checked.mesh.triangles.size() ||
         report.faces + report.lost_faces + report.degenerate_faces + report.duplicate_faces +
-                report.folded_faces + report.flap_faces + report.dropped_faces <
+                report.back_to_back_faces + report.flap_faces + report.dropped_faces <
             report.input_faces) {
       return "the counts in the report of the check";
     }
-    if (report.flap_area_share + report.filled_area_share >
-        0.01 * options.mended_area_limit_percent) {
+    if (report.flap_area_fraction + report.filled_area_fraction >
+        0.01 * options.repaired_area_limit_percent) {
       return "more mended than the limit";
     }
     const CheckedMesh two = check_mesh(input, options, Execution(2));
@@ -135,16 +136,16 @@ inline std::string broken_check(const IndexedMesh& input, const MeshCheckOptions
 /// The envelope of anything is a surface about a volume, or refused.
 inline std::string broken_envelope(const IndexedMesh& input, double opening_percent) {
   try {
-    const EnvelopeOptions options = {opening_percent};
-    const IndexedMesh envelope = envelope_of(input, options, Execution(1));
-    const std::string broken = broken_surface(envelope);
+    const ShrinkWrapOptions options = {opening_percent};
+    const IndexedMesh shrink_wrap = shrink_wrap_of(input, options, Execution(1));
+    const std::string broken = broken_surface(shrink_wrap);
     // Of bodies apart from each other there is one envelope each.
     if (!broken.empty() && broken != "several parts") return "envelope: " + broken;
-    for (const Vector3& p : envelope.points) {
+    for (const Vector3& p : shrink_wrap.points) {
       if (!p.allFinite()) return "envelope: a coordinate that is not finite";
     }
-    const IndexedMesh again = envelope_of(input, options, Execution(2));
-    if (again.points != envelope.points || again.triangles != envelope.triangles) {
+    const IndexedMesh again = shrink_wrap_of(input, options, Execution(2));
+    if (again.points != shrink_wrap.points || again.triangles != shrink_wrap.triangles) {
       return "the same envelope twice differs";
     }
   } catch (const Error& error) {
@@ -156,7 +157,7 @@ inline std::string broken_envelope(const IndexedMesh& input, double opening_perc
 /// Any options of the check within their ranges.
 inline MeshCheckOptions random_check_options(Choices& choices) {
   MeshCheckOptions options;
-  options.mended_area_limit_percent = choices.one_in(2) ? 100.0 : choices.real(0.0, 100.0);
+  options.repaired_area_limit_percent = choices.one_in(2) ? 100.0 : choices.real(0.0, 100.0);
   options.weld_tolerance = choices.one_in(2) ? 1e-12 : choices.real(0.0, 0.01);
   options.dropped_volume_limit = 0.99;
   return options;
@@ -316,7 +317,7 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
     }
     const auto* placed = std::get_if<OnScanOptions>(&options.method);
     if (placed != nullptr && placed->placement == ScanPlacement::Fitted) {
-      const double off = std::abs(result.remesh.volume / result.original.volume - 1.0);
+      const double off = std::abs(result.remesh.volume / result.scan.volume - 1.0);
       if (!(off < 1e-9)) return "the volume of fitted nodes, off by " + format_number(off);
     }
     const std::string mistaken = broken_measures(result);

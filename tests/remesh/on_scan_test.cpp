@@ -97,8 +97,8 @@ TEST(OnScan, GentleAndBentGrainsGoTheSameWay) {
     expect_valid(result, 400, 0, name);
     EXPECT_EQ(report_of(result).nodes.self_intersections, 0U) << name;
     // Rounding of sums over 800 triangles, and of the way to units of the radius and back.
-    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11) << name;
-    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.03) << name;
+    EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-11) << name;
+    EXPECT_NEAR(result.remesh.area / result.scan.area, 1.0, 0.03) << name;
     EXPECT_LT(result.quality.edge_ratio.mean, 1.2) << name;
     EXPECT_TRUE(says(report_lines(result), "on the scan: ")) << name;
   }
@@ -203,7 +203,7 @@ TEST(OnScan, ARingStaysARing) {
   const RemeshResult result = remesh(ring, options_of(400), Execution(1));
   expect_valid(result, 400, 1, "a ring");
   EXPECT_EQ(report_of(result).handles.kept, 1);
-  EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11);
+  EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-11);
   EXPECT_TRUE(says(report_lines(result), "1 kept"));
   OnScanOptions cut_open;
   cut_open.handles.length_limit = 3.0;
@@ -221,7 +221,7 @@ TEST(OnScan, TheSeriesIsFittedToTheScanAsItIsRemeshed) {
   ASSERT_EQ(gentle.coefficients.radius.size(), 81U);
   // Degree 8 leaves less than 1 % of the volume of these lumps.
   EXPECT_NEAR(integrate(HarmonicSurface(gentle.coefficients.radius), Execution(1)).volume /
-                  gentle.original.volume,
+                  gentle.scan.volume,
               1.0, 0.01);
   // Rays do not see all of a hook.
   EXPECT_TRUE(remesh(body("hook"), options, Execution(1)).coefficients.radius.empty());
@@ -235,10 +235,10 @@ TEST(OnScan, ASurfaceFromAFormulaIsSampledAndItsNodesLieOnIt) {
   for (std::size_t i = 0; i < on.directions.size(); ++i) {
     EXPECT_NEAR(on.radial_distances[i], ellipsoid.radius(on.directions[i]), 1e-12);
   }
-  EXPECT_NEAR(on.original.volume / (4.0 / 3.0 * test::pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
+  EXPECT_NEAR(on.scan.volume / (4.0 / 3.0 * test::pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
   const RemeshResult fitted = remesh(ellipsoid, options_of(500), Execution(1));
   // Not that of the samples' facets, which is 5e-5 less.
-  EXPECT_NEAR(fitted.remesh.volume / fitted.original.volume, 1.0, 1e-11);
+  EXPECT_NEAR(fitted.remesh.volume / fitted.scan.volume, 1.0, 1e-11);
 }
 
 TEST(OnScan, CellsCoverTheRemeshAndTheRatioIsIts) {
@@ -319,7 +319,7 @@ TEST(OnScan, AScanThatMeetsItselfIsToldAShrinkWrapThatWasTried) {
   ASSERT_GT(result.clean_wrap_percent, 0.0);
   EXPECT_TRUE(says(result.warnings, "Its shrink-wrap was tried"));
   RemeshOptions followed = options_of(1000);
-  followed.envelope.opening_percent = result.clean_wrap_percent;
+  followed.shrink_wrap.opening_percent = result.clean_wrap_percent;
   EXPECT_EQ(report_of(remesh(ball, followed)).nodes.self_intersections, 0u);
 }
 
@@ -328,7 +328,7 @@ TEST(OnScan, AsPublishedOfAPlateIsCalledAnotherBodyFirst) {
   RemeshOptions published = options_of(300);
   published.method = AsPublishedOptions();
   const RemeshResult result = remesh(plate, published);
-  ASSERT_GT(std::abs(result.remesh.area / result.original.area - 1.0), 0.2);
+  ASSERT_GT(std::abs(result.remesh.area / result.scan.area - 1.0), 0.2);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings.front().text().find("another body: its area is"), std::string::npos);
   EXPECT_FALSE(says(remesh(plate, options_of(300)).warnings, "another body"));
@@ -344,7 +344,7 @@ TEST(OnScan, AScanInVoxelStepsIsToldAsSuchAndIsNotCalledInaccurate) {
   EXPECT_FALSE(says(result.warnings, "not accurate"));
   // The reason: a ball's steps have 1.5 times its area, the remesh is nearer to it than half way.
   const double area = 4.0 * test::pi * radius * radius;
-  EXPECT_GT(result.original.area, 1.4 * area);
+  EXPECT_GT(result.scan.area, 1.4 * area);
   EXPECT_LT(result.remesh.area, 1.2 * area);
 }
 

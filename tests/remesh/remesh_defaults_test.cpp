@@ -32,9 +32,9 @@ TEST(RemeshDefaults, KeepShapeAndVolumeOfRoughAndAngularGrains) {
     const IndexedMesh scan = test::ct_mesh_of_about(grain, 12000);
     const RemeshResult result = remeshed(scan, 1000);
     EXPECT_EQ(result.mesh.points.size(), 1000U);
-    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-12);
+    EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-12);
     // What is promised of real scans, which are rougher than these.
-    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.01);
+    EXPECT_NEAR(result.remesh.area / result.scan.area, 1.0, 0.01);
     EXPECT_LT(result.quality.edge_ratio.mean, 1.155);
     EXPECT_GT(result.quality.smallest_angle, 35.0);
     EXPECT_LT(rms_percent(result), 0.8);

@@ -30,8 +30,8 @@ class RemeshSamples : public testing::TestWithParam<const char*> {
   /// ratio 1.155, no angle below 35 degrees, rms distance 0.62 %.
   static void expect_reach(const RemeshResult& result) {
     EXPECT_EQ(result.mesh.points.size(), static_cast<std::size_t>(node_count));
-    EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11);
-    EXPECT_NEAR(result.remesh.area / result.original.area, 1.0, 0.01);
+    EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-11);
+    EXPECT_NEAR(result.remesh.area / result.scan.area, 1.0, 0.01);
     EXPECT_LT(result.quality.edge_ratio.mean, 1.155);
     EXPECT_GT(result.quality.smallest_angle, 35.0);
     EXPECT_LT(rms_percent(result), 0.62);
@@ -45,11 +45,11 @@ TEST_P(RemeshSamples, AsPublishedLosesTheAreaThatItLosesOfSand) {
   options.method = AsPublishedOptions();
   const RemeshResult result = remeshed(options);
   // The paper's two grains lose 2.3 %; smooth ones, a third of that.
-  const double lost = -relative_error_percent(result.remesh.area, result.original.area);
+  const double lost = -relative_error_percent(result.remesh.area, result.scan.area);
   EXPECT_GT(lost, 1.9);
   EXPECT_LT(lost, 2.6);
   // Volume goes with the chords, rough or not.
-  EXPECT_LT(std::abs(relative_error_percent(result.remesh.volume, result.original.volume)), 0.75);
+  EXPECT_LT(std::abs(relative_error_percent(result.remesh.volume, result.scan.volume)), 0.75);
 }
 
 TEST_P(RemeshSamples, DefaultsReachWhatRealScansAreToReach) {
@@ -64,7 +64,7 @@ TEST_P(RemeshSamples, ALargeEdgeRatioIsCloserAndKeepsItsAngles) {
   const RemeshResult result = remeshed(options);
   EXPECT_LT(rms_percent(result), 0.75 * rms_percent(remeshed(RemeshOptions())));
   EXPECT_GT(result.quality.smallest_angle, 29.0);
-  EXPECT_NEAR(result.remesh.volume / result.original.volume, 1.0, 1e-11);
+  EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-11);
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, RemeshSamples,

@@ -24,7 +24,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh/remesh_warnings.h"
-#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/shrink_wrap.h"
 #include "wscvt/report/report.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/sphere/sphere_triangulation.h"
@@ -160,8 +160,8 @@ TEST(Remesh, RotatedScanGivesTheSameDescriptors) {
   for (Vector3& p : rotated.points) p = rotation * p;
   const RemeshResult a = remesh(sand(), options_of(1000, Weighting::Area), Execution(1));
   const RemeshResult b = remesh(rotated, options_of(1000, Weighting::Area), Execution(1));
-  EXPECT_NEAR(b.original.volume / a.original.volume, 1.0, 1e-12);
-  EXPECT_NEAR(b.original.sdq / a.original.sdq, 1.0, 1e-9);
+  EXPECT_NEAR(b.scan.volume / a.scan.volume, 1.0, 1e-12);
+  EXPECT_NEAR(b.scan.sdq / a.scan.sdq, 1.0, 1e-9);
   // The series of a rotated scan is the rotated series; only its lattice of nodes differs, so what
   // is left is a share of the discretisation error (volume 0.7 %, Sdq 1 % at N = 1000).
   // The residual is read at other points, 3,000 of them: the rms of normal noise scatters by 1.3 %
@@ -256,10 +256,10 @@ TEST(Remesh, HandsBackTheScanItUsedWhereAsked) {
   EXPECT_EQ(result.repaired_scan.triangles.size(), scan.triangles.size());
   // In the input's coordinates.
   EXPECT_EQ(result.repaired_scan.points[result.repaired_scan.triangles[0][0]], soup.points[0]);
-  options.envelope.opening_percent = 10.0;
+  options.shrink_wrap.opening_percent = 10.0;
   const RemeshResult wrapped = remesh(scan, options, Execution(1));
   EXPECT_EQ(wrapped.repaired_scan.triangles,
-            envelope_of(scan, options.envelope, Execution(1)).triangles);
+            shrink_wrap_of(scan, options.shrink_wrap, Execution(1)).triangles);
 }
 
 TEST(Remesh, CellAreasAddUpToTheSurface) {
@@ -591,10 +591,10 @@ TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
     for (std::size_t i = 0; i < result.directions.size(); ++i) {
       EXPECT_NEAR(result.radial_distances[i], ellipsoid.radius(result.directions[i]), 1e-12);
     }
-    EXPECT_NEAR(result.original.volume / (4.0 / 3.0 * pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
+    EXPECT_NEAR(result.scan.volume / (4.0 / 3.0 * pi * 13.0 * 9.0 * 7.0), 1.0, 1e-10);
     // Chords lose about 660 / N % of the volume of a round body.
-    EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.original.volume), -0.66, 0.2);
-    EXPECT_NEAR(result.original.inertia_semi_axes[2], 13.0, 0.005);
+    EXPECT_NEAR(relative_error_percent(result.remesh.volume, result.scan.volume), -0.66, 0.2);
+    EXPECT_NEAR(result.scan.inertia_semi_axes[2], 13.0, 0.005);
   }
 }
 
@@ -669,7 +669,7 @@ void expect_that_the_advice_works(const IndexedMesh& scan, RemeshOptions options
   std::smatch advice;
   ASSERT_TRUE(std::regex_search(sentence, advice, std::regex("--shrink-wrap ([0-9.]+)")))
       << sentence;
-  options.envelope.opening_percent = std::stod(advice[1]);
+  options.shrink_wrap.opening_percent = std::stod(advice[1]);
   const RemeshResult wrapped = remesh(scan, options, Execution(1));
   EXPECT_EQ(wrapped.mesh.points.size(), static_cast<std::size_t>(options.node_count));
 }
@@ -694,7 +694,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   options.points = true;
   const RemeshResult spiky = remesh(cloud, options, Execution(1));
   EXPECT_TRUE(has_warning(spiky, "Make a surface of them first")) << spiky.steep_area_fraction;
-  options.envelope.opening_percent = 10.0;
+  options.shrink_wrap.opening_percent = 10.0;
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
   EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
@@ -708,7 +708,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);
 
   // Two on one ray have no surface at all, and are told the same, and of a wrap.
-  options.envelope.opening_percent = 0.0;
+  options.shrink_wrap.opening_percent = 0.0;
   cloud = {};
   // 512 points whose mean is 0 without rounding.
   for (double x = -2.0; x <= 2.0; ++x) {

@@ -28,10 +28,10 @@ TEST(RemeshUnits, EveryNumberGoesWithItsPowerOfTheLength) {
   published.fit.smallest_radius = 5.0;
   published.relaxation.history = {{0.5, 0.25, 1}};
   result.method = published;
-  result.original = describe_shape(box, Execution(1));
+  result.scan = describe_shape(box, Execution(1));
   result.remesh =
       describe_shape(test::transformed(box, 2.0 * Eigen::Matrix3d::Identity()), Execution(1));
-  result.original_quality.edge_length.mean = 3.0;
+  result.scan_quality.edge_length.mean = 3.0;
   result.quality.edge_length.mean = 4.0;
   result.quality.smallest_angle = 40.0;
   result.distances = MeshDistances{{3.0, 4.0, 5.0}, {6.0, 7.0, 8.0}, 9.0, 10.0};
@@ -51,11 +51,11 @@ TEST(RemeshUnits, EveryNumberGoesWithItsPowerOfTheLength) {
   EXPECT_EQ(result.rms_distance, 6.0);
   EXPECT_EQ(as_published_report(result)->fit.residual, 6.0);
   EXPECT_EQ(as_published_report(result)->fit.smallest_radius, 10.0);
-  EXPECT_NEAR(result.original.volume, 8 * 6.0, 1e-12);
+  EXPECT_NEAR(result.scan.volume, 8 * 6.0, 1e-12);
   EXPECT_NEAR(result.remesh.volume, 8 * 48.0, 1e-11);
-  EXPECT_NEAR(result.original.area, 4 * 22.0, 1e-12);
+  EXPECT_NEAR(result.scan.area, 4 * 22.0, 1e-12);
   EXPECT_LT((result.remesh.centroid - centre).norm(), 1e-12);
-  EXPECT_EQ(result.original_quality.edge_length.mean, 6.0);
+  EXPECT_EQ(result.scan_quality.edge_length.mean, 6.0);
   EXPECT_EQ(result.quality.edge_length.mean, 8.0);
   EXPECT_EQ(result.quality.smallest_angle, 40.0);
   EXPECT_EQ(result.distances->to_reference.maximum, 6.0);

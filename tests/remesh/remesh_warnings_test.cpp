@@ -22,7 +22,7 @@ RemeshResult clean() {
   result.input.input_faces = 196;
   result.input.components = 1;
   result.input.equivalent_radius = 2.0;
-  result.original.area = 10.0;
+  result.scan.area = 10.0;
   result.remesh.area = 10.0;
   result.quality.smallest_angle = 40.0;
   return result;
@@ -74,12 +74,12 @@ TEST(RemeshWarnings, ThereAreNoneOfACleanResult) {
 
 TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
   RemeshResult result = clean();
-  result.options.envelope.opening_percent = 5.0;
+  result.options.shrink_wrap.opening_percent = 5.0;
   result.input.genus = 1;
   on_scan(result).handles.kept = 1;
   result.remesh.area = 5.0;
-  result.original.sdq = 0.5;
-  result.original.sdq_half_clip = 0.52;
+  result.scan.sdq = 0.5;
+  result.scan.sdq_half_clip = 0.52;
   const std::vector<Sentence> all = remesh_warnings(result, "");
   const std::vector<Sentence> of_scan = scan_warnings(result);
   ASSERT_EQ(of_scan.size(), 2U);
@@ -92,14 +92,14 @@ TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
 TEST(RemeshWarnings, TellAnSdqThatIsWhatItsClipSays) {
   expect_warnings(
       {{[](RemeshResult& r) {
-          r.original.sdq = 0.5;
-          r.original.sdq_half_clip = 0.52;
-          r.original.sdq_clipped_share = 0.09;
+          r.scan.sdq = 0.5;
+          r.scan.sdq_half_clip = 0.52;
+          r.scan.sdq_clipped_fraction = 0.09;
         },
         {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}},
        {[](RemeshResult& r) {
-          r.original.sdq = 0.5;
-          r.original.sdq_half_clip = 0.509;
+          r.scan.sdq = 0.5;
+          r.scan.sdq_half_clip = 0.509;
         },
         {}}});
 }
@@ -122,11 +122,11 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
        },
        {"read as points. Volume"}},
       {[](RemeshResult& r) { r.steep_area_fraction = 0.5; }, {}},
-      {[](RemeshResult& r) { r.options.envelope.opening_percent = 5.0; },
+      {[](RemeshResult& r) { r.options.shrink_wrap.opening_percent = 5.0; },
        {"by its shrink-wrap. Volume", "gaps up to 5 %"}},
       {[&](RemeshResult& r) {
          points(r, 0.5);
-         r.options.envelope.opening_percent = 5.0;
+         r.options.shrink_wrap.opening_percent = 5.0;
        },
        {"by its shrink-wrap, its 196 faces were not used. Volume"}},
       {[](RemeshResult& r) { as_published(r).overhang_fraction = 0.01; }, {}},
@@ -137,7 +137,7 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
       {[](RemeshResult& r) {
          r.input.components = 2;
          r.input.inner_components = 1;
-         r.input.inner_volume_share = 0.25;
+         r.input.inner_volume_fraction = 0.25;
        },
        {"1 surface inside", "25 % of its volume"}},
       {[](RemeshResult& r) {
@@ -146,8 +146,8 @@ TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {
        },
        {"2 surfaces inside"}},
       {[](RemeshResult& r) {
-         r.input.flap_area_share = 0.01;
-         r.input.filled_area_share = 0.03;
+         r.input.flap_area_fraction = 0.01;
+         r.input.filled_area_fraction = 0.03;
        },
        {"repaired", "4 % of its area"}},
       {[](RemeshResult& r) {

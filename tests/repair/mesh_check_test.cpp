@@ -19,7 +19,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/repair/closing_advice.h"
-#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/shrink_wrap.h"
 
 namespace wscvt {
 namespace {
@@ -72,7 +72,7 @@ TEST(MeshCheck, LeavesACleanMeshAsItIs) {
                 report.sliver_faces + report.duplicate_faces + report.reoriented_faces +
                 report.split_vertices + report.dropped_faces,
             0U);
-  EXPECT_EQ(report.dropped_volume_share, 0.0);
+  EXPECT_EQ(report.dropped_volume_fraction, 0.0);
   EXPECT_EQ(report.genus, 0);
 }
 
@@ -206,7 +206,7 @@ TEST(MeshCheck, DropsDoubledFaces) {
   }
   checked = check(mesh);
   EXPECT_EQ(checked.report.duplicate_faces, 12U);
-  EXPECT_NEAR(checked.report.duplicate_area_share, 1.0, 1e-14);
+  EXPECT_NEAR(checked.report.duplicate_area_fraction, 1.0, 1e-14);
   EXPECT_EQ(checked.report.faces, 12U);
   EXPECT_NEAR(checked.report.volume, 1.0, 1e-14);
 }
@@ -219,8 +219,8 @@ TEST(MeshCheck, DropsAFoldedFlapWhole) {
   mesh.triangles.push_back({1, 0, 8});
   const CheckedMesh checked = check(mesh);
   EXPECT_EQ(checked.report.duplicate_faces, 0U);
-  EXPECT_EQ(checked.report.folded_faces, 2U);
-  EXPECT_NEAR(checked.report.folded_area_share, std::hypot(0.5, 9.5) / 6.0, 1e-14);
+  EXPECT_EQ(checked.report.back_to_back_faces, 2U);
+  EXPECT_NEAR(checked.report.back_to_back_area_fraction, std::hypot(0.5, 9.5) / 6.0, 1e-14);
   EXPECT_EQ(checked.report.faces, 12U);
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
 }
@@ -264,10 +264,10 @@ TEST(MeshCheck, KeepsTheMainBodyAndSaysWhatItDropped) {
   EXPECT_EQ(checked.mesh.points, body.points);
   EXPECT_EQ(checked.mesh.triangles, body.triangles);
   const double whole = check(body).report.volume;
-  EXPECT_NEAR(checked.report.dropped_volume_share, 0.008 / (whole + 0.008), 1e-12);
+  EXPECT_NEAR(checked.report.dropped_volume_fraction, 0.008 / (whole + 0.008), 1e-12);
   EXPECT_EQ(checked.report.inner_components, 1U);
   const double hollow = check(moved(sphere(1), 0.1, {0, 0, 0})).report.volume;
-  EXPECT_NEAR(checked.report.inner_volume_share, hollow / whole, 1e-12);
+  EXPECT_NEAR(checked.report.inner_volume_fraction, hollow / whole, 1e-12);
 }
 
 TEST(MeshCheck, SplitsAVertexWhereTheSurfaceTouchesItself) {
@@ -372,7 +372,7 @@ TEST(MeshCheck, FillsSmallHoles) {
   EXPECT_EQ(checked.report.genus, 0);
   EXPECT_EQ(checked.report.reoriented_faces, 0U);
   EXPECT_NEAR(checked.report.area, whole, 1e-3 * whole);
-  EXPECT_NEAR(checked.report.filled_area_share, 5.0 / 1280.0, 1e-3);
+  EXPECT_NEAR(checked.report.filled_area_fraction, 5.0 / 1280.0, 1e-3);
 }
 
 TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
@@ -386,12 +386,12 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   const std::string sentence = refusal(mesh);
   expect_mentions(sentence, {"boundary edges around", "(limit 5 %)", "Raise --max-repaired-area"});
   MeshCheckOptions options;
-  options.mended_area_limit_percent = 100.0 * advised_limit(sentence);
-  EXPECT_LT(options.mended_area_limit_percent, 36.0);
+  options.repaired_area_limit_percent = 100.0 * advised_limit(sentence);
+  EXPECT_LT(options.repaired_area_limit_percent, 36.0);
   const CheckedMesh checked = check_mesh(mesh, options, Execution(1));
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
   EXPECT_EQ(checked.report.genus, 0);
-  EXPECT_NEAR(checked.report.filled_area_share, 1.0 / 3.0, 0.02);
+  EXPECT_NEAR(checked.report.filled_area_fraction, 1.0 / 3.0, 0.02);
   // The rim runs up and down about the equator by half a row of faces, 0.04.
   EXPECT_NEAR(checked.report.volume, 2.0 * test::pi / 3.0, 0.04 * test::pi);
 }
@@ -420,12 +420,12 @@ double opening_for(const IndexedMesh& mesh, const MeshCheckOptions& options = {}
 TEST(MeshCheck, NamesAnOpeningThatClosesTheHoles) {
   // A hole .49 wide; the box's diagonal is 3.4.
   MeshCheckOptions options;
-  options.mended_area_limit_percent = 1.0;
+  options.repaired_area_limit_percent = 1.0;
   const IndexedMesh small = without_cap(0.97);
   const double percent = opening_for(small, options);
   EXPECT_GT(percent, 0.0);
   EXPECT_LE(percent, coarsest_opening_percent);
-  const IndexedMesh closed = envelope_of(small, {percent}, Execution(1));
+  const IndexedMesh closed = shrink_wrap_of(small, {percent}, Execution(1));
   const MeshCheckReport report = check(closed).report;
   EXPECT_EQ(report.genus, 0);
   // Of a hole that is not closed the wrap takes both sides, which is next to no volume.
@@ -479,7 +479,7 @@ TEST(MeshCheck, ClosesAnySurfaceWithFacesMissing) {
       if (seed % 3 == 0 && engine() % 2 == 0) std::swap(t[0], t[1]);
     }
     MeshCheckOptions options;
-    options.mended_area_limit_percent = 100.0;
+    options.repaired_area_limit_percent = 100.0;
     options.dropped_volume_limit = 0.999;
     const CheckedMesh checked = check_mesh(mesh, options, Execution(1));
     EXPECT_EQ(bad_edges(checked.mesh), 0U);
@@ -619,7 +619,7 @@ TEST(MeshCheck, DropsFlapsAndWalls) {
   CheckedMesh checked = check(fin);
   EXPECT_EQ(checked.report.non_manifold_edges, 1U);
   EXPECT_EQ(checked.report.flap_faces, 1U);
-  EXPECT_NEAR(checked.report.flap_area_share, std::hypot(1.0, 0.2) / 24.0, 1e-14);
+  EXPECT_NEAR(checked.report.flap_area_fraction, std::hypot(1.0, 0.2) / 24.0, 1e-14);
   EXPECT_EQ(checked.report.faces, 12U);
   EXPECT_NEAR(checked.report.volume, 8.0, 1e-14);
 
@@ -641,7 +641,7 @@ TEST(MeshCheck, DropsFlapsAndWalls) {
   const std::string sentence = refusal(fin);
   expect_mentions(sentence, {"1 non-manifold edge,", "Raise --max-repaired-area"});
   MeshCheckOptions options;
-  options.mended_area_limit_percent = 100.0;
+  options.repaired_area_limit_percent = 100.0;
   checked = check_mesh(fin, options, Execution(1));
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
   EXPECT_NEAR(checked.report.volume, 8.0, 1e-14);
@@ -736,8 +736,8 @@ TEST(MeshCheck, TakesTheOuterSurfaceOfHollowBodies) {
     EXPECT_EQ(checked.mesh.triangles, outer.triangles);
     EXPECT_EQ(checked.report.volume, volume);
     EXPECT_EQ(checked.report.inner_components, 1U);
-    EXPECT_NEAR(checked.report.inner_volume_share, std::pow(0.95, 3), 1e-12);
-    EXPECT_EQ(checked.report.dropped_volume_share, 0.0);
+    EXPECT_NEAR(checked.report.inner_volume_fraction, std::pow(0.95, 3), 1e-12);
+    EXPECT_EQ(checked.report.dropped_volume_fraction, 0.0);
   }
 }
 
@@ -791,7 +791,7 @@ TEST(MeshCheck, RefusesALimitOutOfRange) {
 TEST(MeshCheck, RefusesOtherOptionsOutOfRange) {
   for (const double limit : {-0.01, 1.01, std::nan("")}) {
     MeshCheckOptions options;
-    options.mended_area_limit_percent = 100.0 * limit;
+    options.repaired_area_limit_percent = 100.0 * limit;
     expect_mentions(refusal(box(1, 1, 1), options), {"repaired area", "0 to 100"});
     options = MeshCheckOptions();
     options.weld_tolerance = limit;

@@ -44,11 +44,11 @@ TEST(ReportSummary, TellsTheErrorsThatAPlainComputationGives) {
   }
   // Errors have three decimals.
   EXPECT_NE(errors.find("volume exact"), std::string::npos) << errors;
-  EXPECT_NEAR(number_behind(errors, " area "), percent(result.remesh.area, result.original.area), 6e-4);
+  EXPECT_NEAR(number_behind(errors, " area "), percent(result.remesh.area, result.scan.area), 6e-4);
   EXPECT_NEAR(number_behind(errors, "sphericity "),
-              percent(result.remesh.sphericity, result.original.sphericity), 6e-4);
+              percent(result.remesh.sphericity, result.scan.sphericity), 6e-4);
   EXPECT_NEAR(number_behind(errors, "aspect ratio "),
-              percent(result.remesh.aspect_ratio, result.original.aspect_ratio), 6e-4);
+              percent(result.remesh.aspect_ratio, result.scan.aspect_ratio), 6e-4);
   const std::string remeshed = line_of(lines, "Remesh");
   EXPECT_EQ(number_behind(remeshed, "Remesh"), 300.0);
   EXPECT_NEAR(number_behind(remeshed, "smallest angle "), result.quality.smallest_angle, 0.06);

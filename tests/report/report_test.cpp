@@ -30,9 +30,9 @@ RemeshResult example() {
   const IndexedMesh coarse = test::sphere(3);
   RemeshResult result;
   result.mesh = coarse;
-  result.original = describe_shape(scan, execution);
+  result.scan = describe_shape(scan, execution);
   result.remesh = describe_shape(coarse, execution);
-  result.original_quality = measure_quality(scan);
+  result.scan_quality = measure_quality(scan);
   result.quality = measure_quality(coarse);
   result.input.input_vertices = scan.points.size();
   result.input.input_faces = scan.triangles.size();
@@ -63,7 +63,7 @@ RemeshResult on_scan_example() {
   result.options.method = OnScanOptions();
   OnScanReport report;
   report.nodes.proxy_vertices = 10242;
-  report.nodes.evening_steps = 100;
+  report.nodes.equalization_steps = 100;
   report.nodes.fit_rounds = 40;
   report.nodes.fit_flips = 1;
   report.nodes.relocations = 2;
@@ -125,21 +125,21 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
   result.input.degenerate_faces = 4;
   result.input.weld_tolerance = 2.5e-12;
   result.input.duplicate_faces = 3;
-  result.input.duplicate_area_share = 0.015;
-  result.input.folded_faces = 2;
-  result.input.folded_area_share = 0.001;
+  result.input.duplicate_area_fraction = 0.015;
+  result.input.back_to_back_faces = 2;
+  result.input.back_to_back_area_fraction = 0.001;
   result.input.non_manifold_edges = 7;
   result.input.flap_faces = 5;
-  result.input.flap_area_share = 0.002;
+  result.input.flap_area_fraction = 0.002;
   result.input.filled_holes = 6;
   result.input.filling_faces = 20;
-  result.input.filled_area_share = 0.003;
+  result.input.filled_area_fraction = 0.003;
   result.input.lost_faces = 8;
   result.input.components = 6;
   result.input.inner_components = 3;
-  result.input.inner_volume_share = 0.25;
+  result.input.inner_volume_fraction = 0.25;
   result.input.dropped_faces = 100;
-  result.input.dropped_volume_share = 0.0123;
+  result.input.dropped_volume_fraction = 0.0123;
   published(result).overhang_fraction = 0.0005;
   published(result).fit.requested_degree = 20;
   published(result).fit.degree = 9;
@@ -201,7 +201,7 @@ TEST(Report, TellsOfTheMethodOnTheScan) {
   EXPECT_EQ(line_of(result, "Intersections"), "0 pairs of 1280 triangles");
   auto& report = std::get<OnScanReport>(result.method);
   report.nodes.self_intersections = 1;
-  report.nodes.mended_intersections = 3;
+  report.nodes.repaired_intersections = 3;
   report.nodes.mean_edge_ratio = 1.1375;
   EXPECT_EQ(line_of(result, "Edge ratio"), "mean 1.137 (wanted 1.105)");
   EXPECT_EQ(line_of(result, "Intersections"), "1 pair of 1280 triangles, 3 removed");
@@ -280,20 +280,20 @@ TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
   EXPECT_EQ(cells_of(result, "largest sampled"), (Cells{"0.3", "0.4", "0.4", "20"}));
   EXPECT_EQ(cells_of(result, "root mean square"), (Cells{"0.2", "0.25", "0.25", "12.5"}));
   EXPECT_EQ(cells_of(result, "mean"), (Cells{"0.1", "0.15", "0.15", "7.5"}));
-  result.original_quality.edge_length = {};
-  result.original_quality.edge_length.mean = 1.5;
-  result.original_quality.edge_length.standard_deviation = 0.5;
+  result.scan_quality.edge_length = {};
+  result.scan_quality.edge_length.mean = 1.5;
+  result.scan_quality.edge_length.standard_deviation = 0.5;
   result.quality.edge_length.mean = 3.0;
   result.quality.edge_length.standard_deviation = 0.75;
-  result.original_quality.valence_six_share = 0.5;
-  result.quality.valence_six_share = 0.875;
-  result.original_quality.edge_variation = 0.0625;
+  result.scan_quality.valence_six_fraction = 0.5;
+  result.quality.valence_six_fraction = 0.875;
+  result.scan_quality.edge_variation = 0.0625;
   result.quality.edge_variation = 0.125;
-  result.original_quality.edge_ratio = {1.25, 0.25, 1.0, 5.5};
+  result.scan_quality.edge_ratio = {1.25, 0.25, 1.0, 5.5};
   result.quality.edge_ratio = {1.125, 0.375, 1.0, 6.5};
-  result.original_quality.smallest_angle = 8.0;
+  result.scan_quality.smallest_angle = 8.0;
   result.quality.smallest_angle = 9.0;
-  result.original_quality.mean_smallest_angle = 30.0;
+  result.scan_quality.mean_smallest_angle = 30.0;
   result.quality.mean_smallest_angle = 31.0;
   EXPECT_EQ(cells_of(result, "edge length, CV (deviation / mean)"), (Cells{"0.0625", "0.125"}));
   EXPECT_EQ(cells_of(result, "edge ratio of the triangles, mean"), (Cells{"1.25", "1.125"}));
@@ -361,10 +361,10 @@ TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(json.at("quality").at("remesh").at("edge_length").at("mean").get<double>(),
             result.quality.edge_length.mean);
   const auto& volume = json.at("descriptors").at("volume");
-  EXPECT_EQ(volume.at("scan").get<double>(), result.original.volume);
+  EXPECT_EQ(volume.at("scan").get<double>(), result.scan.volume);
   EXPECT_EQ(volume.at("remesh").get<double>(), result.remesh.volume);
   EXPECT_EQ(volume.at("error_percent").get<double>(),
-            relative_error_percent(result.remesh.volume, result.original.volume));
+            relative_error_percent(result.remesh.volume, result.scan.volume));
   EXPECT_EQ(json.at("as_published").at("relaxation").at("history").at("flips"),
             nlohmann::json({30, 1}));
   EXPECT_TRUE(json.at("warnings").empty());
@@ -372,10 +372,10 @@ TEST(Report, JsonHoldsTheNumbersToTheLastBit) {
 
 TEST(Report, HoldsTheMassPropertiesOfBothBodies) {
   RemeshResult result = example();
-  result.original = describe_shape(
+  result.scan = describe_shape(
       test::transformed(test::box(1, 2, 3), test::random_rotation(2), {7, 8, 9}), Execution(1));
   const auto mass = nlohmann::json::parse(report_json(result)).at("mass");
-  const MassProperties original = mass_properties(result.original);
+  const MassProperties original = mass_properties(result.scan);
   EXPECT_EQ(mass.at("scan").at("volume").get<double>(), original.volume);
   EXPECT_EQ(mass.at("scan").at("centroid").at("z").get<double>(), original.centroid.z());
   const auto& tensor = mass.at("scan").at("inertia_tensor");
@@ -403,7 +403,7 @@ TEST(Report, JsonSaysWhetherTheScanIsInVoxelSteps) {
 TEST(Report, JsonStaysValidWithNumbersAndBytesItCannotHold) {
   RemeshResult result = example();
   result.remesh.sdq = std::numeric_limits<double>::quiet_NaN();
-  result.original.sdq = 0.0;
+  result.scan.sdq = 0.0;
   result.input.equivalent_radius = 0.0;
   result.warnings = {"file \xff.ply", "a \"quote\"\n"};
   const auto json = nlohmann::json::parse(report_json(result));
@@ -461,22 +461,22 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/input/degenerate_faces", input.degenerate_faces);
   set("/input/sliver_faces", input.sliver_faces);
   set("/input/duplicate_faces", input.duplicate_faces);
-  set("/input/duplicate_area_fraction", input.duplicate_area_share);
-  set("/input/back_to_back_faces", input.folded_faces);
-  set("/input/back_to_back_area_fraction", input.folded_area_share);
+  set("/input/duplicate_area_fraction", input.duplicate_area_fraction);
+  set("/input/back_to_back_faces", input.back_to_back_faces);
+  set("/input/back_to_back_area_fraction", input.back_to_back_area_fraction);
   set("/input/non_manifold_edges", input.non_manifold_edges);
   set("/input/flap_faces", input.flap_faces);
-  set("/input/flap_area_fraction", input.flap_area_share);
+  set("/input/flap_area_fraction", input.flap_area_fraction);
   set("/input/filled_holes", input.filled_holes);
   set("/input/filling_faces", input.filling_faces);
-  set("/input/filled_area_fraction", input.filled_area_share);
+  set("/input/filled_area_fraction", input.filled_area_fraction);
   set("/input/reoriented_faces", input.reoriented_faces);
   set("/input/split_vertices", input.split_vertices);
   set("/input/components", input.components);
   set("/input/inner_components", input.inner_components);
-  set("/input/inner_volume_fraction", input.inner_volume_share);
+  set("/input/inner_volume_fraction", input.inner_volume_fraction);
   set("/input/dropped_faces", input.dropped_faces);
-  set("/input/dropped_volume_fraction", input.dropped_volume_share);
+  set("/input/dropped_volume_fraction", input.dropped_volume_fraction);
   set("/input/used_vertices", input.vertices);
   set("/input/used_faces", input.faces);
   set("/input/genus", input.genus);
@@ -495,7 +495,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   set("/as_published/fit/rays", method.fit.rays);
   set("/as_published/fit/residual", method.fit.residual);
   set("/as_published/fit/smallest_radius", method.fit.smallest_radius);
-  for (auto [name, quality] : {std::pair("/quality/scan", &result.original_quality),
+  for (auto [name, quality] : {std::pair("/quality/scan", &result.scan_quality),
                                std::pair("/quality/remesh", &result.quality)}) {
     const std::string of = name;
     set(of + "/edge_length/mean", quality->edge_length.mean);
@@ -509,7 +509,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
     set(of + "/edge_ratio/maximum", quality->edge_ratio.maximum);
     set(of + "/smallest_angle_degrees", quality->smallest_angle);
     set(of + "/mean_smallest_angle_degrees", quality->mean_smallest_angle);
-    set(of + "/valence_six_fraction", quality->valence_six_share);
+    set(of + "/valence_six_fraction", quality->valence_six_fraction);
   }
   set("/rms_distance/two_sided", result.rms_distance);
   set("/largest_distance/two_sided", result.largest_distance);
@@ -552,7 +552,7 @@ TEST(Report, EveryNumberStandsUnderItsOwnName) {
   EXPECT_EQ(at("/node_count_search/trials/1/node_count"), 642);
   EXPECT_EQ(at("/node_count_search/trials/1/error_percent"), 0.5);
   // The mass of each body, its tensor without symmetry between the axes.
-  for (const auto& [name, body] : {std::pair(std::string("/mass/scan"), &result.original),
+  for (const auto& [name, body] : {std::pair(std::string("/mass/scan"), &result.scan),
                                    std::pair(std::string("/mass/remesh"), &result.remesh)}) {
     EXPECT_EQ(at(name + "/volume"), body->volume);
     EXPECT_EQ(at(name + "/inertia_tensor/yz").get<double>(), body->inertia_tensor(1, 2));
@@ -574,14 +574,14 @@ TEST(Report, EveryNumberOfTheMethodOnTheScanStandsUnderItsOwnName) {
   set("genus", nodes.genus);
   set("split_vertices", nodes.split_vertices);
   set("coarsened_vertices", nodes.proxy_vertices);
-  set("equalization_steps", nodes.evening_steps);
-  set("equalization_flips", nodes.evening_flips);
+  set("equalization_steps", nodes.equalization_steps);
+  set("equalization_flips", nodes.equalization_flips);
   set("fit_rounds", nodes.fit_rounds);
   set("fit_flips", nodes.fit_flips);
   set("fit_relocations", nodes.relocations);
   set("volume_offset", nodes.volume_offset);
   set("mean_edge_ratio", nodes.mean_edge_ratio);
-  set("removed_intersections", nodes.mended_intersections);
+  set("removed_intersections", nodes.repaired_intersections);
   set("self_intersections", nodes.self_intersections);
   const auto json = nlohmann::json::parse(report_json(result));
   for (const auto& [name, value] : expected) {

@@ -49,7 +49,7 @@ TEST(ClumpReport, LinesFitIn80ColumnsAndHoldEachNumberOnce) {
     all += line + "\n";
   }
   for (const MassProperties& mass :
-       {mass_properties(clump.original), clump.united.mass, clump.summed.mass}) {
+       {mass_properties(clump.scan), clump.united.mass, clump.summed.mass}) {
     std::vector<double> numbers = {mass.volume, mass.principal_axes.w(), mass.principal_axes.x(),
                                    mass.principal_axes.y(), mass.principal_axes.z()};
     for (int i = 0; i < 3; ++i) {
@@ -177,7 +177,7 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInPageAndLog) {
     ASSERT_NE(found, log.end()) << rows[0][0];
     EXPECT_EQ(test::Rows(found, found + static_cast<std::ptrdiff_t>(rows.size())), rows);
   }
-  const auto bodies = mass_rows({{"grain", mass_properties(clump.original)},
+  const auto bodies = mass_rows({{"grain", mass_properties(clump.scan)},
                                  {"union of the spheres", clump.united.mass},
                                  {"sum over the spheres", clump.summed.mass}});
   EXPECT_EQ(test::table_named(page, bodies[0][0]), bodies);
@@ -186,8 +186,7 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInPageAndLog) {
   EXPECT_EQ(clump_lines(clump)[1], "Clump       6 spheres, intersection over union 0.875");
 
   // The log has a number per cell: grain, union, sum.
-  const MassProperties all[] = {mass_properties(clump.original), clump.united.mass,
-                                clump.summed.mass};
+  const MassProperties all[] = {mass_properties(clump.scan), clump.united.mass, clump.summed.mass};
   const auto expect = [&](const std::string& label, const auto& number_of) {
     const std::vector<std::string> row = {label, format_number(number_of(all[0])),
                                           format_number(number_of(all[1])),
@@ -240,7 +239,7 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {
       {"/sum/volume_error_percent", 6.5},
       {"/sum/centroid_error_percent", 7.5},
       {"/sum/inertia_error_percent", 8.5},
-      {"/grain/volume", mass_properties(clump.original).volume},
+      {"/grain/volume", mass_properties(clump.scan).volume},
       {"/union/mass/volume", clump.united.mass.volume},
       {"/sum/mass/volume", clump.summed.mass.volume},
       {"/union/mass/centroid/y", clump.united.mass.centroid.y()},

@@ -33,7 +33,7 @@ PartsResult three_boxes(double larger) {
                                        Vector3(x, 0.0, 0.0)));
   }
   result.measures = measure_parts(result.parts, result.grain);
-  result.original = describe_shape(result.grain, Execution(1));
+  result.scan = describe_shape(result.grain, Execution(1));
   result.warnings = {"A <warning>."};
   return result;
 }
@@ -119,7 +119,7 @@ TEST(PartsReportNumbers, StandUnderTheirNames) {
     EXPECT_NEAR(json.at(name).get<double>(), value, 1e-12 * value) << name;
   }
   const std::string page = parts_html(result, {}, Execution(1));
-  const auto mass = mass_rows({{"grain", mass_properties(result.original)}});
+  const auto mass = mass_rows({{"grain", mass_properties(result.scan)}});
   EXPECT_EQ(test::table_named(page, mass[0][0]), mass);
 
   PartsResult one = result;

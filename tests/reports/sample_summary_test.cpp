@@ -38,7 +38,7 @@ class SampleSummaryOfAFile : public testing::Test {
 RemeshResult grain_of(double radius, const std::vector<Sentence>& warnings = {}) {
   RemeshResult result;
   result.input.equivalent_radius = radius;
-  result.original.inertia_semi_axes = Vector3(1.0, 2.0, 4.0);
+  result.scan.inertia_semi_axes = Vector3(1.0, 2.0, 4.0);
   result.warnings = warnings;
   return result;
 }
@@ -116,18 +116,18 @@ TEST_F(SampleSummaryOfAFile, NamesTheGrainsWithWarningsThatFitOnALine) {
 TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
   RemeshResult result;
   result.input.equivalent_radius = 2.0;
-  result.original.volume = 3.0;
-  result.original.area = 5.0;
-  result.original.aspect_ratio = 0.25;
-  result.original.sphericity = 0.875;
-  result.original.inertia_semi_axes = Vector3(1.0, 1.25, 4.0);
-  result.remesh = result.original;
+  result.scan.volume = 3.0;
+  result.scan.area = 5.0;
+  result.scan.aspect_ratio = 0.25;
+  result.scan.sphericity = 0.875;
+  result.scan.inertia_semi_axes = Vector3(1.0, 1.25, 4.0);
+  result.remesh = result.scan;
   result.remesh.volume = 3.3;
   result.remesh.area = 6.0;
   result.remesh.sphericity = 0.4375;
   result.rms_distance = 0.03;
-  result.original_quality.edge_ratio.mean = 9.0;
-  result.original_quality.smallest_angle = 9.5;
+  result.scan_quality.edge_ratio.mean = 9.0;
+  result.scan_quality.smallest_angle = 9.5;
   result.quality.edge_ratio = {1.5, 2.5, 3.5, 4.5};
   result.quality.smallest_angle = 33.0;
   result.quality.mean_smallest_angle = 44.0;
@@ -207,7 +207,7 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
   for (Eigen::Index k = 0; k < 13; ++k) {
     radii[k] = 1.0 + 0.37 * static_cast<double>((k * 5) % 13);
     RemeshResult result = grain_of(radii[k]);
-    result.original.volume = 3.0 * radii[k];
+    result.scan.volume = 3.0 * radii[k];
     table += sample_row("grain" + std::to_string(k), result, {});
   }
   table += failed_row("bad <one>", "Broken & gone.", {});

@@ -12,7 +12,7 @@
 #include "toolbox/sample/grown_mesh.h"
 #include "toolbox/sample/quick_shape.h"
 #include "toolbox/sample/sample_comparison.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
@@ -185,7 +185,7 @@ TEST(GrainGrower, GrowsGrainsWithOverhangs) {
   double real = 0.0, grown = 0.0;
   std::size_t with_overhangs = 0;
   const auto overhang = [](const IndexedMesh& mesh) {
-    return folded_solid_angle(mesh, describe_shape(mesh, Execution(1)).centroid, Execution(1));
+    return overhang_solid_angle(mesh, describe_shape(mesh, Execution(1)).centroid, Execution(1));
   };
   for (std::size_t k = 0; k < sample.size(); ++k) {
     real += overhang(meshes.mesh(sample[k].radial, 1.0, sample[k].radial_offset));

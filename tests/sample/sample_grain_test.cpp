@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/self_intersections.h"
 
@@ -102,8 +102,8 @@ TEST(SampleGrain, ReadsWhatRaysDoNotSee) {
     EXPECT_NEAR(read.volume / (4.0 * pi / 3.0), 1.0, 0.12) << name;
     EXPECT_NEAR(read.sphericity, shape.sphericity, 0.05) << name;
     EXPECT_LT(read.centroid.norm(), 0.2) << name;
-    const double fold = folded_solid_angle(scan, shape.centroid, Execution(1));
-    EXPECT_NEAR(folded_solid_angle(mesh, read.centroid, Execution(1)), fold, 0.15 * fold) << name;
+    const double fold = overhang_solid_angle(scan, shape.centroid, Execution(1));
+    EXPECT_NEAR(overhang_solid_angle(mesh, read.centroid, Execution(1)), fold, 0.15 * fold) << name;
     // The white grain has the inertia of the unit sphere.
     std::vector<Vector3> white = offset_values(grain.white_offset, sphere.points);
     std::vector<double> logarithms(white.size());

@@ -82,7 +82,7 @@ TEST(MultilevelRelaxation, IsAsEvenAsOneLevelInFewerIterationsWithFewerDefects) 
   EXPECT_LT(levels.report.iterations, single.report.iterations / 2);
   // The level rule stops at 1e-3 of a cell; the two then differ by what is left to go.
   EXPECT_LT(quality(levels).edge_variation, 1.15 * quality(single).edge_variation);
-  EXPECT_GT(quality(levels).valence_six_share, quality(single).valence_six_share);
+  EXPECT_GT(quality(levels).valence_six_fraction, quality(single).valence_six_fraction);
 }
 
 TEST(MultilevelRelaxation, SameBytesOnAnyNumberOfThreads) {

@@ -3,7 +3,7 @@
 """retired_words.py SOURCE: checks that no text for users contains a word that GLOSSARY.md retired.
 
 It reads the literals of lib/, filter_wscvt/ and of the Python module (labels, messages, helps, keys of JSON
-and CSV), and the documents. It does not read comments and identifiers. `python3 retired_words.py --self`
+and CSV), the documents, and the identifiers of the installed headers. It does not read comments. `python3 retired_words.py --self`
 checks that it finds each word in a sentence made for it.
 """
 import pathlib
@@ -27,6 +27,9 @@ RETIRED = {
     r"fitted surface": "SH surface",
 }
 
+# Words that only identifiers had.
+RETIRED_IDENTIFIERS = {**RETIRED, r"even(ed|er|ing|s)?": "equalization"}
+
 # File, and why it may hold such words.
 EXCEPTIONS = {
     "tests/figures/study": "the paper's own words, and programs of the study",
@@ -42,6 +45,8 @@ ALLOWED = re.compile(
     r"|Website|unsigned|FoldLimit|MendLimit"
 )
 
+LITERAL_OR_NAME = re.compile(
+    r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|(?P<name>\b[A-Za-z_]\w*)", re.S)
 LITERAL = re.compile(r"//[^\n]*|/\*.*?\*/|#include[^\n]*|'(?:\\.|[^'\\\n])'|\"((?:\\.|[^\"\\\n])*)\"",
                      re.S)
 
@@ -61,6 +66,27 @@ def lines_of(text):
             fenced = not fenced
         elif not fenced and not line.startswith("    "):
             yield number, line
+
+
+def installed_headers(source):
+    """The headers that lib/CMakeLists.txt installs."""
+    text = (source / "lib/CMakeLists.txt").read_text(encoding="utf-8")
+    return [source / "lib" / name for name in re.findall(r"^\s+((?:wscvt|toolbox)/[\w/]+\.h)$", text, re.M)]
+
+
+def identifiers_of(text):
+    """Line and name of each identifier of C++."""
+    for match in LITERAL_OR_NAME.finditer(text):
+        if match.group("name"):
+            yield text.count("\n", 0, match.start()) + 1, match.group("name")
+
+
+def words_in_identifier(name):
+    """The retired words of an identifier such as `mended_area` or `MendedArea`."""
+    for part in re.findall(r"[A-Z]?[a-z]+", name):
+        for word, term in RETIRED_IDENTIFIERS.items():
+            if re.fullmatch(word, part, re.I):
+                yield part, term
 
 
 def words_in(line):
@@ -88,11 +114,21 @@ def faults_of(source):
                 yield f"{name}:{number}: \"{word}\"; GLOSSARY.md has: {term}"
 
 
+    for path in installed_headers(source):
+        for number, name in identifiers_of(path.read_text(encoding="utf-8")):
+            for word, term in words_in_identifier(name):
+                yield (f"{path.relative_to(source).as_posix()}:{number}: {name}: \"{word}\"; GLOSSARY.md has: "
+                       f"{term}")
+
+
 def check_itself():
     for word in RETIRED:
         plain = re.sub(r"\(un\)\?|\([^)]*\)\?|s\?", "", word).replace("[- ]", " ")
         assert list(words_in(f"A sentence with {plain} in it.")), plain
     assert list(words_in("mended_area")) and not list(words_in("a manifold, `mended_area`, recommend"))
+    assert list(words_in_identifier("mended_area")) and list(words_in_identifier("EveningReport"))
+    assert not list(words_in_identifier("manifold_edges"))
+    assert [name for _, name in identifiers_of('f("a b"); // c')] == ["f"]
     assert [n for n, _ in literals('// "fold"\nf("a", \'"\');\n#include "fold.h"\n')] == [2]
 
 

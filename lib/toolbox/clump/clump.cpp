@@ -190,26 +190,26 @@ void check_clump_options(const ClumpOptions& options) {
   require_in_range(options.smallest_radius_percent, smallest_radius_option);
   require_in_range(options.compared_nodes, compared_nodes_option);
   if (options.compared_nodes > 0) require_in_range(options.compared_nodes, node_count_option);
-  require_in_range(options.max_repaired_area_percent, mended_area_limit_option);
-  check_envelope_options(options.envelope);
+  require_in_range(options.max_repaired_area_percent, repaired_area_limit_option);
+  check_shrink_wrap_options(options.shrink_wrap);
 }
 
 ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Execution& execution) {
   check_clump_options(options);
   RemeshOptions repairs;
   repairs.points = options.points;
-  repairs.envelope = options.envelope;
+  repairs.shrink_wrap = options.shrink_wrap;
   repairs.max_repaired_area_percent = options.max_repaired_area_percent;
   RepairedScan repaired = repair_scan(std::move(scan), repairs, execution.part(0.0, 0.15));
   ClumpResult result;
   result.options = options;
   result.input = repaired.checked.report;
   result.repaired_scan = std::move(repaired.checked.mesh);
-  result.original = describe_shape(result.repaired_scan, execution);
-  result.equivalent_radius = equivalent_radius(result.original.volume);
+  result.scan = describe_shape(result.repaired_scan, execution);
+  result.equivalent_radius = equivalent_radius(result.scan.volume);
   if (!repaired.precision_warning.empty()) result.warnings.push_back(repaired.precision_warning);
 
-  const UnitFrame frame(result.original);
+  const UnitFrame frame(result.scan);
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);
   FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8));
   measure(unit, fitted.spheres, frame, result, execution.part(0.8, 1.0));
@@ -225,7 +225,7 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   result.united.mass = mass_properties(describe_shape(result.surface, execution));
   result.summed.mass = summed_mass(result.spheres);
   for (SphereMass* const mass : {&result.united, &result.summed}) {
-    mass->error = mass_error(mass->mass, result.original, result.equivalent_radius);
+    mass->error = mass_error(mass->mass, result.scan, result.equivalent_radius);
   }
   add_warnings(result);
   return result;

@@ -44,8 +44,7 @@ struct ClumpResult {
   SphereMass united;                           ///< of the union of the spheres
   SphereMass summed;      ///< of the sum of the spheres; overlaps count repeatedly
   MeshCheckReport input;  ///< repairs of the scan, and its measures
-  ShapeDescriptors
-      original;  ///< of the repaired scan: the mass properties that a clump should have
+  ShapeDescriptors scan;  ///< of the repaired scan: the mass properties that a clump should have
   IndexedMesh repaired_scan;
   IndexedMesh surface;  ///< of the union, see sphere_union_mesh
   ClumpOptions options;

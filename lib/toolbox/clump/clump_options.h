@@ -19,8 +19,8 @@ struct ClumpOptions {
   /// Nodes of a remesh whose error of first contact is compared with the clump's; 0: no remesh.
   int compared_nodes = 0;
   bool points = false;  ///< as RemeshOptions::points
-  EnvelopeOptions envelope;
-  double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
+  ShrinkWrapOptions shrink_wrap;
+  double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
 };
 
 inline constexpr NumberOption<int> sphere_count_option = {"spheres",  "number of spheres", 1, 1000,
@@ -63,8 +63,8 @@ void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.inside, inside_option);
   visitor(options.compared_nodes, compared_nodes_option);
   visitor(options.points, points_option);
-  visitor(options.envelope.opening_percent, envelope_option);
-  visitor(options.max_repaired_area_percent, mended_area_limit_option);
+  visitor(options.shrink_wrap.opening_percent, shrink_wrap_option);
+  visitor(options.max_repaired_area_percent, repaired_area_limit_option);
 }
 
 /// Throws Error(InvalidInput), with the range, for options out of range.

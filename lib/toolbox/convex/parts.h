@@ -17,7 +17,7 @@ namespace wscvt {
 struct PartsResult {
   ConvexParts parts;
   PartsMeasures measures;
-  ShapeDescriptors original;       ///< of the grain: the mass properties that the parts should have
+  ShapeDescriptors scan;           ///< of the grain: the mass properties that the parts should have
   IndexedMesh grain;               ///< the repaired scan: closed, outward
   std::vector<Sentence> warnings;  ///< sentences for the user
 };

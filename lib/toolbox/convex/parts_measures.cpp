@@ -151,7 +151,7 @@ PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const Con
   PartsResult result;
   // The parts do not inherit the remesh's faults, because they are made of the scan.
   result.warnings = scan_warnings(remeshed);
-  result.original = remeshed.original;
+  result.scan = remeshed.scan;
   result.grain = std::move(remeshed.repaired_scan);
   result.parts = convex_parts(remeshed.mesh, result.grain, options, execution.part(0.3, 0.9));
   result.measures = measure_parts(result.parts, result.grain, execution.part(0.9, 1.0));

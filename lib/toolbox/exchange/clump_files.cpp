@@ -31,12 +31,12 @@ struct FramedClump {
 };
 
 FramedClump in_frame(const ClumpResult& clump, const FrameOptions& options) {
-  const SimulationFrame frame = simulation_frame(clump.original, options);
+  const SimulationFrame frame = simulation_frame(clump.scan, options);
   FramedClump framed;
   for (const Sphere& sphere : clump.spheres) {
     framed.spheres.push_back({frame.point(sphere.centre), frame.scale * sphere.radius});
   }
-  framed.mass = in_frame(mass_properties(clump.original), frame);
+  framed.mass = in_frame(mass_properties(clump.scan), frame);
   return framed;
 }
 

@@ -51,7 +51,7 @@ std::string grid_description(const DistanceGrid& grid, const RemeshResult& resul
          {"origin_in_scan", json_of(frame.origin)},
          {"axes_in_scan", {{"w", axes.w()}, {"x", axes.x()}, {"y", axes.y()}, {"z", axes.z()}}},
          {"scale", frame.scale}}},
-       {"mass", json_of(in_frame(mass_properties(result.original), frame))}});
+       {"mass", json_of(in_frame(mass_properties(result.scan), frame))}});
 }
 
 }  // namespace
@@ -104,20 +104,20 @@ void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const Simulati
 void write_nodes(const std::string& path, const RemeshResult& result,
                  const SimulationOptions& options) {
   check_nodes_path(path, options);
-  const SimulationFrame frame = simulation_frame(result.original, options.frame);
+  const SimulationFrame frame = simulation_frame(result.scan, options.frame);
   const NodeTable nodes = node_table(in_frame(result.mesh, frame));
   const std::string ending = ending_of(path);
   if (ending == ".csv") return write_file(path, nodes_csv(nodes));
   if (ending == ".vtp") return write_file(path, nodes_vtp(nodes));
-  write_file(path, rockable_shape(word_of(path), nodes,
-                                  in_frame(mass_properties(result.original), frame)));
+  write_file(path,
+             rockable_shape(word_of(path), nodes, in_frame(mass_properties(result.scan), frame)));
 }
 
 void write_distance_grid(const std::string& path, const RemeshResult& result,
                          const SimulationOptions& options, const ReportOrigin& origin,
                          const Execution& execution) {
   check_grid_path(path);
-  const SimulationFrame frame = simulation_frame(result.original, options.frame);
+  const SimulationFrame frame = simulation_frame(result.scan, options.frame);
   const IndexedMesh& surface =
       options.surface == GridSurface::Remesh ? result.mesh : result.repaired_scan;
   const DistanceGrid grid = distance_grid(in_frame(surface, frame), options.grid, execution);

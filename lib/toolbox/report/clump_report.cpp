@@ -83,7 +83,7 @@ Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
           {"first_contact",
            {{"clump", json_of(clump.contact)},
             {"remesh", json_of(clump.remesh_contact.value_or(none))}}},
-          {"grain", wscvt::json_of(mass_properties(clump.original))},
+          {"grain", wscvt::json_of(mass_properties(clump.scan))},
           {"union", json_of(clump.united)},
           {"sum", json_of(clump.summed)},
           {"stages", std::move(stages)},
@@ -133,7 +133,7 @@ std::vector<std::vector<std::string>> mass_error_rows(const ClumpResult& clump) 
 }
 
 std::vector<NamedMass> masses(const ClumpResult& clump) {
-  return {{"grain", mass_properties(clump.original)},
+  return {{"grain", mass_properties(clump.scan)},
           {"union of the spheres", clump.united.mass},
           {"sum over the spheres", clump.summed.mass}};
 }

@@ -68,7 +68,7 @@ std::string parts_json(const PartsResult& result, const ReportOrigin& origin) {
                {"parts_volume", m.parts_volume},
                {"shared_volume", m.shared_volume},
                {"excess_volume_percent", m.excess_percent()},
-               {"mass_properties", json_of(mass_properties(result.original))},
+               {"mass_properties", json_of(mass_properties(result.scan))},
                {"warnings", result.warnings}};
   return json_document(json);
 }
@@ -89,7 +89,7 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   page.add_heading("Distances and volume");
   page.add_lines(parts_lines(result));
   page.add_heading("Mass properties of the grain");
-  page.add_rows(mass_rows({{"grain", mass_properties(result.original)}}));
+  page.add_rows(mass_rows({{"grain", mass_properties(result.scan)}}));
   return page.text();
 }
 

@@ -62,12 +62,12 @@ std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& 
     values.push_back({{"contact_error_scatter", "%"}, shape.contacts->scatter});
   }
   if (shape.scan) {
-    append_mesh("scan.", *shape.scan, result.original_quality, values);
+    append_mesh("scan.", *shape.scan, result.scan_quality, values);
     const MeshCheckReport& input = result.input;
     values.push_back({{"scan.vertices", ""}, static_cast<double>(input.vertices)});
     values.push_back({{"scan.genus", ""}, static_cast<double>(input.genus)});
-    values.push_back(
-        {{"scan.repaired_area_fraction", ""}, input.flap_area_share + input.filled_area_share});
+    values.push_back({{"scan.repaired_area_fraction", ""},
+                      input.flap_area_fraction + input.filled_area_fraction});
     values.push_back({{"scan.voxel_steps", ""}, input.has_voxel_steps ? 1.0 : 0.0});
   }
   if (shape.remesh) append_mesh("remesh.", *shape.remesh, result.quality, values);

@@ -16,8 +16,8 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/repair/folded_solid_angle.h"
 #include "wscvt/repair/handles.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/self_intersections.h"
@@ -233,8 +233,8 @@ SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grid
 SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
                          const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
-  const double fold = folded_solid_angle(mesh, shape.centroid, execution);
-  const bool has_overhangs = 100.0 * fold > usual_fold_limit_percent;
+  const double fold = overhang_solid_angle(mesh, shape.centroid, execution);
+  const bool has_overhangs = 100.0 * fold > usual_overhang_limit_percent;
   if (has_overhangs && genus_of(mesh) > 0) {
     return sample_grain(without_handles(mesh, execution), grids, execution);
   }

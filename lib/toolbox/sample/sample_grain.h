@@ -24,8 +24,8 @@ struct SampleGrain {
   /// The white grain is the grain stretched along its principal axes to the inertia of a sphere of
   /// radius 1, so that it has no form. The series is of the logarithm of its radius.
   std::vector<double> white;
-  /// If a grain has more overhangs than usual_fold_limit_percent, the surface is r(u) u + o(u) in
-  /// either frame, with u spread over the scan. Empty for other grains.
+  /// If a grain has more overhangs than usual_overhang_limit_percent, the surface is r(u) u + o(u)
+  /// in either frame, with u spread over the scan. Empty for other grains.
   OffsetSeries radial_offset;
   OffsetSeries white_offset;
   double sphericity = 0.0;  ///< Wadell's, of the series on SampleGrids::sphere; no unit
@@ -63,10 +63,10 @@ SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grid
                          const Execution& execution);
 
 /// Reads a grain given by a closed, outward mesh, as checked by check_mesh. Of small overhangs,
-/// only the outermost surface is read. If they exceed usual_fold_limit_percent, the mesh is spread
-/// over the sphere and has offsets; small handles are cut by the defaults of HandleOptions. Throws
-/// Error: InvalidInput if the mesh encloses no volume, or if it has overhangs and a larger handle
-/// or walls too thin for the degree, and as spread_over_directions; Cancelled.
+/// only the outermost surface is read. If they exceed usual_overhang_limit_percent, the mesh is
+/// spread over the sphere and has offsets; small handles are cut by the defaults of HandleOptions.
+/// Throws Error: InvalidInput if the mesh encloses no volume, or if it has overhangs and a larger
+/// handle or walls too thin for the degree, and as spread_over_directions; Cancelled.
 SampleGrain sample_grain(const IndexedMesh& mesh, const SampleGrids& grids,
                          const Execution& execution);
 

@@ -17,7 +17,7 @@ std::string format_number(double value, int significant = 6);
 std::string format_typed(double value);
 
 /// Formats a fraction for people, in per cent with three digits: 0.05 is "5 %".
-std::string format_percent(double share);
+std::string format_percent(double fraction);
 
 /// Formats an error in per cent for people, with its sign and three decimals, and in exponent form
 /// below 0.001. Returns "exact" below 1e-9, which is rounding, and "-" if it is not finite.

@@ -47,7 +47,7 @@ std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& d) {
       {"aspect_ratio_inertia", "aspect ratio S/L (inertia ellipsoid)", "", d.aspect_ratio},
       {"sphericity_wadell", "sphericity (Wadell)", "", d.sphericity},
       {"sdq_invariant", "Sdq (invariant form)", "", d.sdq},
-      {"sdq_clipped_fraction", "fraction of Sdq^2 at the clip", "", d.sdq_clipped_share, false},
+      {"sdq_clipped_fraction", "fraction of Sdq^2 at the clip", "", d.sdq_clipped_fraction, false},
       {"axis_s_inertia", "axis S (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[0]},
       {"axis_i_inertia", "axis I (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[1]},
       {"axis_l_inertia", "axis L (inertia ellipsoid)", "length", 2.0 * d.inertia_semi_axes[2]},
@@ -93,7 +93,7 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
   rows.push_back({"sku", "kurtosis Sku" + above, "", rough(d.roughness.sku)});
   rows.push_back({"sdq_invariant", "Sdq (invariant form)", "", d.basic.sdq});
   rows.push_back({"sdq_clipped_fraction", "fraction of Sdq^2 at the clip", "",
-                  d.basic.sdq_clipped_share, false});
+                  d.basic.sdq_clipped_fraction, false});
   rows.push_back({"sdq_printed", "Sdq (as printed, eq. 17, this pose)", "",
                   d.has_radius ? d.printed_sdq : not_a_number});
   rows.push_back({"orientation_f1", "surface orientation f1", "", d.orientation.eigenvalues[0]});

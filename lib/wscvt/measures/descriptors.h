@@ -37,7 +37,7 @@ struct ShapeDescriptors {
   /// unit; 0 for a sphere.
   double sdq = 0.0;
   /// Fraction of Sdq^2 from clipped faces, in [0, 1]. This part depends on the clip.
-  double sdq_clipped_share = 0.0;
+  double sdq_clipped_fraction = 0.0;
   double sdq_half_clip = 0.0;          ///< Sdq with half the clip; no unit
   Vector3 centroid = Vector3::Zero();  ///< of the volume (Lien and Kajiya; Mirtich); length
   /// Semi-axes of the homogeneous ellipsoid with the body's second moments per volume (the inertia
@@ -113,7 +113,7 @@ inline constexpr NumberOption<double> roughness_cutoff_option = {
 
 /// Largest overhang, as a fraction of the solid angle seen from the volume centroid, for which the
 /// printed Sdq is computed.
-inline constexpr double largest_measured_fold = 0.01 * usual_fold_limit_percent;
+inline constexpr double largest_measured_overhang = 0.01 * usual_overhang_limit_percent;
 
 /// Three mutually perpendicular dimensions of a body, S <= I <= L; full lengths, not halves.
 struct FormAxes {
@@ -169,8 +169,8 @@ struct OrientationTensor {
 struct Roundness {
   /// In (0, 1]; 1 if there are no corners, NaN if the mesh is too coarse.
   double roundness = 1.0;
-  double corner_area_share = 0.0;  ///< of the surface area, in [0, 1]
-  double ball_radius = 0.0;        ///< of the balls in which curvature was measured; length
+  double corner_area_fraction = 0.0;  ///< of the surface area, in [0, 1]
+  double ball_radius = 0.0;           ///< of the balls in which curvature was measured; length
   /// Radius of the sharpest corners that the balls can resolve, over the inscribed radius; no unit.
   double smallest_radius = 0.0;
 };
@@ -213,9 +213,10 @@ struct DetailedDescriptors {
   bool has_roughness = false;
   double least_cutoff = 0.0;  ///< smallest cut-off that the mesh's edges allow; length
   Roughness roughness;
-  double folded_share = 0.0;  ///< overhang as a fraction of 4 pi, seen from the volume centroid
+  double overhang_fraction =
+      0.0;  ///< overhang as a fraction of 4 pi, seen from the volume centroid
   /// Whether the printed Sdq exists: false if the volume centroid is outside the body or the
-  /// overhang exceeds largest_measured_fold. With less overhang it uses the outermost surface.
+  /// overhang exceeds largest_measured_overhang. With less overhang it uses the outermost surface.
   bool has_radius = false;
   double printed_sdq =
       0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (printed_sdq.h)

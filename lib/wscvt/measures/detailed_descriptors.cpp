@@ -12,7 +12,7 @@
 #include "wscvt/measures/printed_sdq.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
@@ -59,11 +59,11 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
   }
 
   execution.report(0.95, "Measuring the printed Sdq");
-  result.folded_share = folded_solid_angle(mesh, result.basic.centroid, execution);
-  result.has_radius = result.folded_share <= largest_measured_fold;
+  result.overhang_fraction = overhang_solid_angle(mesh, result.basic.centroid, execution);
+  result.has_radius = result.overhang_fraction <= largest_measured_overhang;
   if (result.has_radius) {
     const MeshSurface surface(mesh, result.basic.centroid, 0.5 * result.equivalent_diameter,
-                              result.folded_share, execution);
+                              result.overhang_fraction, execution);
     result.printed_sdq = printed_sdq(surface, printed_sdq_rings, execution);
   }
   execution.report(1.0, "Measuring the shape");

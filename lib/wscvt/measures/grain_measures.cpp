@@ -68,16 +68,16 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   if (!clipped.empty()) sentences.push_back(std::move(clipped));
   const std::string missing = ". Sdq as printed (eq. 17) needs a star-shaped grain and is left " +
                               std::string("empty. Sdq (invariant form) is valid.");
-  if (!descriptors.has_radius && descriptors.folded_share < 1.0) {
+  if (!descriptors.has_radius && descriptors.overhang_fraction < 1.0) {
     sentences.push_back("'" + name + "' is not star-shaped: overhangs cover " +
-                        format_percent(descriptors.folded_share) + " of the sphere (limit " +
-                        format_percent(largest_measured_fold) + ")" + missing);
+                        format_percent(descriptors.overhang_fraction) + " of the sphere (limit " +
+                        format_percent(largest_measured_overhang) + ")" + missing);
   } else if (!descriptors.has_radius) {
     sentences.push_back("'" + name + "' is not star-shaped: its volume centroid lies outside it" +
                         missing);
-  } else if (descriptors.folded_share > told_folded_share) {
+  } else if (descriptors.overhang_fraction > told_folded_share) {
     sentences.push_back("Overhangs of '" + name + "' cover " +
-                        format_percent(descriptors.folded_share) +
+                        format_percent(descriptors.overhang_fraction) +
                         " of the sphere. Sdq as printed describes only the outermost surface.");
   }
 }
@@ -96,7 +96,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
   if (report.merged_corners > 0) {
     sentences.push_back(merged_warning(report.merged_corners, report.merged_distance));
   }
-  const double mended = report.flap_area_share + report.filled_area_share;
+  const double mended = report.flap_area_fraction + report.filled_area_fraction;
   if (mended > 0.0) {
     sentences.push_back("Holes and non-manifold edges of '" + grain.name +
                         "' were repaired for the measurement. This changed " +

@@ -150,7 +150,7 @@ MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution)
   const Statistics angles = moments.smallest_angle.statistics();
   quality.smallest_angle = angles.minimum;
   quality.mean_smallest_angle = angles.mean;
-  quality.valence_six_share = static_cast<double>(six) / static_cast<double>(valence.size());
+  quality.valence_six_fraction = static_cast<double>(six) / static_cast<double>(valence.size());
   return quality;
 }
 

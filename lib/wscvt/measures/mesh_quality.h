@@ -27,12 +27,12 @@ struct Histogram {
 
 /// Quality of the triangles of a mesh.
 struct MeshQuality {
-  Statistics edge_length;            ///< over the edges, each once; length
-  double edge_variation = 0.0;       ///< standard deviation / mean of the edge length (ECV)
-  Statistics edge_ratio;             ///< longest / shortest edge over the triangles; >= 1
-  double smallest_angle = 0.0;       ///< degrees
-  double mean_smallest_angle = 0.0;  ///< mean over the triangles of their smallest angle, degrees
-  double valence_six_share = 0.0;    ///< fraction of the vertices with six neighbours, 0 to 1
+  Statistics edge_length;             ///< over the edges, each once; length
+  double edge_variation = 0.0;        ///< standard deviation / mean of the edge length (ECV)
+  Statistics edge_ratio;              ///< longest / shortest edge over the triangles; >= 1
+  double smallest_angle = 0.0;        ///< degrees
+  double mean_smallest_angle = 0.0;   ///< mean over the triangles of their smallest angle, degrees
+  double valence_six_fraction = 0.0;  ///< fraction of the vertices with six neighbours, 0 to 1
 };
 
 /// Measures a closed, consistently oriented mesh without edges of zero length, as check_mesh

@@ -146,7 +146,7 @@ Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, dou
   const double correction = (wide.value - narrow.value) / (wider - 1.0);
   const double most = largest_correction * radius / inscribed_radius * (1.0 - narrow.value);
   result.roundness = narrow.value - std::clamp(correction, 0.0, std::max(most, 0.0));
-  result.corner_area_share = narrow.area_share;
+  result.corner_area_fraction = narrow.area_share;
   return result;
 }
 

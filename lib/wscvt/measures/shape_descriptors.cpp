@@ -161,7 +161,7 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   const GradientSquares squares = gradient_squares(mesh, result.centroid, execution);
   result.sdq = std::sqrt(squares.whole / moments.area);
   result.sdq_half_clip = std::sqrt(squares.with_half_clip / moments.area);
-  if (squares.whole > 0.0) result.sdq_clipped_share = squares.clipped / squares.whole;
+  if (squares.whole > 0.0) result.sdq_clipped_fraction = squares.clipped / squares.whole;
   return result;
 }
 
@@ -170,7 +170,7 @@ std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& 
   if (!(change > told_clip_change)) return {};
   return "Sdq (invariant form) of " + grain +
          " is not reliable: parts of the surface lie along rays from the centroid. " +
-         format_percent(descriptors.sdq_clipped_share) +
+         format_percent(descriptors.sdq_clipped_fraction) +
          " of its square comes from faces at the smallest cosine, " +
          format_number(smallest_cosine) + ". With half that cosine Sdq is " +
          format_percent(change) + " larger. Do not compare it with other grains.";

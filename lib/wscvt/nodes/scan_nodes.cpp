@@ -13,11 +13,11 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/coarsening.h"
-#include "wscvt/nodes/evening.h"
+#include "wscvt/nodes/equalization.h"
 #include "wscvt/nodes/fit.h"
 #include "wscvt/nodes/fit_state.h"
 #include "wscvt/surface/curvature_density.h"
-#include "wscvt/surface/intersection_mending.h"
+#include "wscvt/surface/intersection_repair.h"
 #include "wscvt/surface/self_intersections.h"
 #include "wscvt/surface/space_order.h"
 #include "wscvt/surface/triangle_hash.h"
@@ -40,7 +40,7 @@ constexpr std::size_t most_splits = 20;
 constexpr std::size_t most_proxy_vertices_a_node = 30;
 /// A scan of more vertices per node is not looked at for long faces.
 constexpr std::size_t most_split_vertices_a_node = 90;
-constexpr int evening_steps = 100;
+constexpr int equalization_steps = 100;
 /// Equalization and the fit change the contrast of a density; these powers of the wanted density
 /// correct it in advance. For a scan of sand and 1000 nodes, the logarithm of the nodes' density
 /// then has a slope of .32 to .37 against the logarithm of the largest curvature (of the scan's
@@ -92,7 +92,7 @@ namespace {
 /// Nodes in preparation, with their surface.
 struct Placing {
   SampledScan split;  ///< the scan with split faces, if needed
-  EveningSurface surface;
+  EqualizationSurface surface;
   std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan's
   EditMesh nodes;                        ///< without triangles if there cannot be so few
   std::vector<std::int32_t> clusters;    ///< node for each vertex of the surface
@@ -315,7 +315,7 @@ EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing&
   constexpr int most_partings = 3;
   for (int round = 0; round < most_partings; ++round) {
     const PartingReport parted = part_triangles(nodes, execution);
-    report.mended_intersections += parted.before - parted.after;
+    report.repaired_intersections += parted.before - parted.after;
     report.self_intersections = parted.after;
     if (parted.before == parted.after) return nodes;
     report.volume_offset += offset_to_volume(nodes.points, nodes.triangles, parts.volume);
@@ -371,14 +371,14 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
 
   std::vector<std::int32_t> places =
       places_on(placing.surface.mesh, placing.nodes, placing.clusters);
-  const EveningReport evening =
-      even_nodes(placing.nodes, places, placing.surface, evening_steps, execution.part(0.2, 0.4));
-  report.evening_steps = evening.steps;
-  report.evening_flips = evening.flips;
+  const EqualizationReport evening = even_nodes(placing.nodes, places, placing.surface,
+                                                equalization_steps, execution.part(0.2, 0.4));
+  report.equalization_steps = evening.steps;
+  report.equalization_flips = evening.flips;
   // The fit separates what it can by itself; rounded numbers tell whether there is anything.
   if (!options_.fitted || may_intersect(placing.nodes, execution)) {
     const PartingReport parted = part_triangles(placing.nodes, execution.part(0.4, 0.42));
-    report.mended_intersections = parted.before - parted.after;
+    report.repaired_intersections = parted.before - parted.after;
     report.self_intersections = parted.after;
   }
   EditMesh nodes = options_.fitted

@@ -33,15 +33,15 @@ struct ScanNodesReport {
   std::size_t split_vertices = 0;  ///< added on long edges of a scan too coarse for its nodes
   std::size_t proxy_vertices = 0;  ///< of the coarsened scan used for edge-length equalization
   std::size_t genus = 0;           ///< number of handles of the scan and of the result
-  int evening_steps = 0;
-  int evening_flips = 0;
+  int equalization_steps = 0;
+  int equalization_flips = 0;
   int fit_rounds = 0;
   int fit_flips = 0;
   int relocations = 0;
   int polished = 0;
   double mean_edge_ratio = 0.0;             ///< reached
   double volume_offset = 0.0;               ///< last offset along the normals; equivalent radii
-  std::size_t mended_intersections = 0;     ///< intersecting triangle pairs that were separated
+  std::size_t repaired_intersections = 0;   ///< intersecting triangle pairs that were separated
   std::size_t self_intersections = 0;       ///< pairs left
   std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted if any are left
   /// Larger number of nodes without intersecting pairs, if pairs are left and the scan has none. At

@@ -7,7 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -75,7 +75,7 @@ PublishedRemesher::PublishedRemesher(const NormalizedScan& scan, const AsPublish
                                      int degree, bool with_curvatures, const Execution& execution)
     : options_(options), with_curvatures_(with_curvatures) {
   execution.report(0.0, "Looking for overhangs");
-  const double overhang = folded_solid_angle(scan.mesh, Vector3::Zero(), execution);
+  const double overhang = overhang_solid_angle(scan.mesh, Vector3::Zero(), execution);
   report_.overhang_fraction = overhang;
   refuse_overhang(overhang, 0.01 * options.max_overhang_percent);
   execution.report(0.1, "Casting rays");

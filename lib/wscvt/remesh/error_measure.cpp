@@ -9,17 +9,16 @@
 namespace wscvt {
 
 double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
-                     const ShapeDescriptors& original,
-                     const std::optional<MeshDistances>& distances) {
+                     const ShapeDescriptors& scan, const std::optional<MeshDistances>& distances) {
   switch (measure) {
     case ErrorMeasure::Volume:
-      return std::abs(relative_error_percent(remesh.volume, original.volume));
+      return std::abs(relative_error_percent(remesh.volume, scan.volume));
     case ErrorMeasure::Area:
-      return std::abs(relative_error_percent(remesh.area, original.area));
+      return std::abs(relative_error_percent(remesh.area, scan.area));
     case ErrorMeasure::Sphericity:
-      return std::abs(relative_error_percent(remesh.sphericity, original.sphericity));
+      return std::abs(relative_error_percent(remesh.sphericity, scan.sphericity));
     case ErrorMeasure::Inertia:
-      return inertia_error_percent(remesh, original);
+      return inertia_error_percent(remesh, scan);
     case ErrorMeasure::Distance:
       break;
   }
@@ -27,7 +26,7 @@ double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
     throw Error(ErrorCode::InvalidInput,
                 "The result has no distances. Request them in the options of the remesh.");
   }
-  return 100.0 * distances->root_mean_square / equivalent_radius(original.volume);
+  return 100.0 * distances->root_mean_square / equivalent_radius(scan.volume);
 }
 
 }  // namespace wscvt

@@ -13,7 +13,6 @@ namespace wscvt {
 /// are needed for Distance only, in the descriptors' unit. Throws Error(InvalidInput) if they are
 /// needed and missing.
 double error_percent(ErrorMeasure measure, const ShapeDescriptors& remesh,
-                     const ShapeDescriptors& original,
-                     const std::optional<MeshDistances>& distances);
+                     const ShapeDescriptors& scan, const std::optional<MeshDistances>& distances);
 
 }  // namespace wscvt

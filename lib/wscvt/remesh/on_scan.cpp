@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/nodes/evening.h"
+#include "wscvt/nodes/equalization.h"
 #include "wscvt/remesh/contact_fit.h"
 #include "wscvt/repair/handles.h"
 #include "wscvt/surface/curvature.h"

@@ -200,8 +200,8 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.input = grain.input;
   result.steep_area_fraction = grain.steep_area_fraction;
   result.coefficients = grain.coefficients;
-  result.original = grain.scan.shape;
-  result.original_quality = grain.scan.quality;
+  result.scan = grain.scan.shape;
+  result.scan_quality = grain.scan.quality;
   to_input_units(grain.scan.unit, grain.scan.centre, result);
   if (auto* report = std::get_if<OnScanReport>(&result.method)) {
     // Counts again for the triangles that are returned or written. Their corners are rounded anew

@@ -26,7 +26,7 @@ struct CheckOption {
 void check_options(const RemeshOptions& options) {
   CheckOption check;
   for_each_option(options, check);
-  check_envelope_options(options.envelope);
+  check_shrink_wrap_options(options.shrink_wrap);
   const auto* published = std::get_if<AsPublishedOptions>(&options.method);
   if (published != nullptr && options.target.percent > 0.0 &&
       !takes_any_count(published->sampling)) {

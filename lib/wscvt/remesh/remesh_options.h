@@ -129,8 +129,8 @@ struct AsPublishedOptions {
   Weighting weighting = Weighting::RadialDistance;
   double curvature_alpha = 1.0;  ///< alpha of eq. 11, -3 to 3
   PublishedPlacement placement = PublishedPlacement::Series;
-  /// The scan is refused above this overhang fraction (folded_solid_angle), in %.
-  double max_overhang_percent = usual_fold_limit_percent;
+  /// The scan is refused above this overhang fraction (overhang_solid_angle), in %.
+  double max_overhang_percent = usual_overhang_limit_percent;
 };
 
 inline constexpr NumberOption<double> max_overhang_option = {
@@ -165,9 +165,9 @@ struct RemeshOptions {
   /// Ignore the scan's faces and build a surface from its points (see mesh_of_points). If false, a
   /// scan without faces is refused.
   bool points = false;
-  EnvelopeOptions envelope;
+  ShrinkWrapOptions shrink_wrap;
   /// Max. fraction of the scan's area that repairs may change, in %, 0 to 100.
-  double max_repaired_area_percent = MeshCheckOptions().mended_area_limit_percent;
+  double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
   /// Degree of the SH series. AsPublished uses it for the surface, OnScan only for
   /// `measures.series`.
   int degree = usual_harmonic_degree;
@@ -212,8 +212,8 @@ void for_each_common_option(Options& options, Visitor& visitor) {
   visitor(options.target.largest_node_count, largest_node_count_option);
   visitor(options.degree, harmonic_degree_option);
   visitor(options.points, points_option);
-  visitor(options.envelope.opening_percent, envelope_option);
-  visitor(options.max_repaired_area_percent, mended_area_limit_option);
+  visitor(options.shrink_wrap.opening_percent, shrink_wrap_option);
+  visitor(options.max_repaired_area_percent, repaired_area_limit_option);
   visitor(options.measures.distances, distances_option);
 }
 

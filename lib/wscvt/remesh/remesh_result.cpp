@@ -10,7 +10,7 @@
 namespace wscvt {
 
 double error_percent(const RemeshResult& result, ErrorMeasure measure) {
-  return error_percent(measure, result.remesh, result.original, result.distances);
+  return error_percent(measure, result.remesh, result.scan, result.distances);
 }
 
 void write_coefficients(const std::string& path, const RemeshResult& result) {

@@ -28,7 +28,7 @@ struct OnScanReport {
 
 /// Report of the method AsPublished.
 struct AsPublishedReport {
-  double overhang_fraction = 0.0;  ///< of the scan, see folded_solid_angle; 0 for a formula
+  double overhang_fraction = 0.0;  ///< of the scan, see overhang_solid_angle; 0 for a formula
   HarmonicFitReport fit;           ///< of the SH series; empty for a formula
   RelaxationReport relaxation;
 };
@@ -68,9 +68,9 @@ struct RemeshResult {
   double clean_wrap_percent = 0.0;
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
   std::optional<NodeCountSearch> search;   ///< the error of each N tried, %; with an error target
-  MeshQuality original_quality;            ///< of the repaired scan
+  MeshQuality scan_quality;                ///< of the repaired scan
   MeshQuality quality;                     ///< of the remesh
-  ShapeDescriptors original;               ///< of the repaired scan
+  ShapeDescriptors scan;                   ///< of the repaired scan
   ShapeDescriptors remesh;
   RemeshOptions options;           ///< as used
   std::vector<Sentence> warnings;  ///< sentences for the user

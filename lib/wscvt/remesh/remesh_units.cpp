@@ -16,9 +16,9 @@ void to_input_units(double unit, const Vector3& centre, RemeshResult& result) {
   }
   result.rms_distance *= unit;
   result.largest_distance *= unit;
-  scale(result.original, unit, centre);
+  scale(result.scan, unit, centre);
   scale(result.remesh, unit, centre);
-  scale(result.original_quality, unit);
+  scale(result.scan_quality, unit);
   scale(result.quality, unit);
   if (result.distances) scale(*result.distances, unit);
   for (Vector3& point : result.mesh.points) point = centre + unit * point;

@@ -20,7 +20,7 @@ using Sentences = std::vector<Sentence>;
 constexpr double steep_points_limit = 0.06;
 
 void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
-  const bool wraps = result.options.envelope.opening_percent > 0.0;
+  const bool wraps = result.options.shrink_wrap.opening_percent > 0.0;
   const std::size_t faces = result.options.points ? result.input.input_faces : 0;
   const std::string unused =
       faces > 0 ? ", its " + std::to_string(faces) + " faces were not used" : std::string();
@@ -42,7 +42,7 @@ void warn_of_scan(const RemeshResult& result, Sentences& warnings) {
         "The scan was replaced by its shrink-wrap" + unused +
         ". Volume, area and distances are measured against the shrink-wrap. It closes gaps up "
         "to " +
-        format_percent(0.01 * result.options.envelope.opening_percent) +
+        format_percent(0.01 * result.options.shrink_wrap.opening_percent) +
         " of the bounding-box diagonal. Check the result against the scan.");
   }
   const MeshCheckReport& input = result.input;
@@ -87,7 +87,7 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
     text += "The scan has " + std::to_string(of_scan) + " such pairs itself. ";
     text += result.clean_wrap_percent > 0.0
                 ? "Its shrink-wrap was tried with as many nodes and has none: use " +
-                      mention(envelope_option, result.clean_wrap_percent) +
+                      mention(shrink_wrap_option, result.clean_wrap_percent) +
                       ", and check the result against the scan."
                 : Sentence("Repair the scan first.");
   } else {
@@ -182,13 +182,13 @@ Sentence closer_by(const RemeshOptions& options) {
 
 void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
   if (result.input.input_vertices == 0 || !is_inaccurate(result)) return;
-  const double area = result.remesh.area / result.original.area - 1.0;
+  const double area = result.remesh.area / result.scan.area - 1.0;
   warnings.push_back("The remesh is not accurate: rms distance " +
                      format_percent(result.rms_distance / result.input.equivalent_radius) +
                      " of the equivalent radius, largest " +
                      format_percent(result.largest_distance / result.input.equivalent_radius) +
-                     ", area error " + (area < 0.0 ? "-" : "+") +
-                     format_percent(std::abs(area)) + ". " + closer_by(result.options));
+                     ", area error " + (area < 0.0 ? "-" : "+") + format_percent(std::abs(area)) +
+                     ". " + closer_by(result.options));
 }
 
 /// Warns of nodes that have nothing to follow.
@@ -202,7 +202,7 @@ void warn_of_detail(const RemeshResult& result, Sentences& warnings) {
 }
 
 Sentence other_body_sentence(const RemeshResult& result) {
-  const double area = result.remesh.area / result.original.area - 1.0;
+  const double area = result.remesh.area / result.scan.area - 1.0;
   if (as_published_report(result) == nullptr || std::abs(area) <= other_body_limit) return "";
   return "The remesh is another body: its area is " + format_percent(std::abs(area)) +
          (area < 0.0 ? " smaller" : " larger") +
@@ -238,7 +238,7 @@ bool is_inaccurate(const RemeshResult& result) {
   if (result.input.has_voxel_steps) return false;
   return result.rms_distance > distance_warning_limit * result.input.equivalent_radius ||
          result.largest_distance > largest_warning_limit * result.input.equivalent_radius ||
-         std::abs(result.remesh.area / result.original.area - 1.0) > area_warning_limit;
+         std::abs(result.remesh.area / result.scan.area - 1.0) > area_warning_limit;
 }
 
 void append_repair_warnings(const MeshCheckReport& input, const std::string& done,
@@ -249,11 +249,11 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
                        " separate bodies. Only the largest was " + done + ".");
   }
   if (input.inner_components > 0) {
-    warnings.push_back("The scan has " + std::to_string(input.inner_components) +
-                       (input.inner_components == 1 ? " surface" : " surfaces") +
-                       " inside its outer one, around " + format_percent(input.inner_volume_share) +
-                       " of its volume. Only the outer one was " + done +
-                       ", as a body without pores.");
+    warnings.push_back(
+        "The scan has " + std::to_string(input.inner_components) +
+        (input.inner_components == 1 ? " surface" : " surfaces") +
+        " inside its outer one, around " + format_percent(input.inner_volume_fraction) +
+        " of its volume. Only the outer one was " + done + ", as a body without pores.");
   }
   if (input.stray_distance > 0.0) {
     warnings.push_back(stray_vertex_sentence(input) + " Check that it belongs to the scan.");
@@ -261,7 +261,7 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
   if (input.merged_corners > 0) {
     warnings.push_back(merged_warning(input.merged_corners, input.merged_distance));
   }
-  const double mended = input.flap_area_share + input.filled_area_share;
+  const double mended = input.flap_area_fraction + input.filled_area_fraction;
   if (mended > 0.0) {
     warnings.push_back("Holes and non-manifold edges of the scan were repaired. This changed " +
                        format_percent(mended) + " of its area. Check the result against the scan.");
@@ -283,7 +283,7 @@ std::vector<Sentence> remesh_warnings(const RemeshResult& result, const std::str
   warn_of_detail(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
-  const std::string clipped = sdq_clip_sentence("the scan", result.original);
+  const std::string clipped = sdq_clip_sentence("the scan", result.scan);
   if (!clipped.empty()) warnings.push_back(clipped);
   warn_of_self_intersections(result, warnings);
   warn_of_relaxation(result, warnings);

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "wscvt/repair/coordinates.h"
-#include "wscvt/repair/envelope.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/point_cloud.h"
+#include "wscvt/repair/shrink_wrap.h"
 #include "wscvt/repair/steep_area.h"
 
 namespace wscvt {
@@ -16,7 +16,7 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
   RepairedScan repaired;
   const std::size_t points = scan.points.size();
   const std::size_t faces = scan.triangles.size();
-  const bool wraps = options.envelope.opening_percent > 0.0;
+  const bool wraps = options.shrink_wrap.opening_percent > 0.0;
   if (wraps && options.points) {
     // The points themselves are wrapped, because a surface made by rays misses points behind
     // others.
@@ -26,9 +26,9 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
   }
   const std::size_t different = scan.points.size();
   repaired.precision_warning = precision_warning(scan);
-  if (wraps) scan = envelope_of(std::move(scan), options.envelope, execution.part(0.7, 0.85));
+  if (wraps) scan = shrink_wrap_of(std::move(scan), options.shrink_wrap, execution.part(0.7, 0.85));
   MeshCheckOptions check;
-  check.mended_area_limit_percent = options.max_repaired_area_percent;
+  check.repaired_area_limit_percent = options.max_repaired_area_percent;
   repaired.checked =
       check_mesh(std::move(scan), check, execution.part(options.points || wraps ? 0.85 : 0.0, 1.0));
   MeshCheckReport& report = repaired.checked.report;

@@ -18,7 +18,7 @@ struct RepairedScan {
 };
 
 /// Makes a surface of points and shrink-wraps the scan, if asked for, and repairs it (see
-/// check_mesh). Throws Error as mesh_of_points, envelope_of and check_mesh do.
+/// check_mesh). Throws Error as mesh_of_points, shrink_wrap_of and check_mesh do.
 RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
                          const Execution& execution);
 

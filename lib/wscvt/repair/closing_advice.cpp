@@ -6,7 +6,7 @@
 namespace wscvt {
 
 Sentence wrap_advice(double opening_percent) {
-  return "Or remesh its shrink-wrap by " + mention(envelope_option, opening_percent) +
+  return "Or remesh its shrink-wrap by " + mention(shrink_wrap_option, opening_percent) +
          ", and check the result against the scan.";
 }
 

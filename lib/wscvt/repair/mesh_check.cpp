@@ -115,13 +115,13 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
     if (inside[i] != 0) ++report.inner_components;
     (inside[i] != 0 ? inner_volume : outer_volume) += others[i].volume;
   }
-  report.inner_volume_share = inner_volume / report.volume;
-  report.dropped_volume_share = outer_volume / (outer_volume + report.volume);
-  if (report.dropped_volume_share > options.dropped_volume_limit) {
+  report.inner_volume_fraction = inner_volume / report.volume;
+  report.dropped_volume_fraction = outer_volume / (outer_volume + report.volume);
+  if (report.dropped_volume_fraction > options.dropped_volume_limit) {
     refuse(
         "The mesh has " + std::to_string(report.components - report.inner_components) +
         " separate bodies and the largest has only " +
-        format_percent(1.0 - report.dropped_volume_share) +
+        format_percent(1.0 - report.dropped_volume_fraction) +
         " of their volume, so there is no main body. Split the mesh (wscvt split MESH FOLDER; in "
         "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
         "separately, or all of them by wscvt batch MESH -o OUT --parts.");
@@ -130,10 +130,10 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
 
 /// Refuses the mesh if more area was repaired than allowed. `widest_share`: width of the widest
 /// hole / diagonal of the bounding box.
-void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
-                   const MeshCheckReport& report) {
-  const double mended = report.flap_area_share + report.filled_area_share;
-  const double limit = 0.01 * options.mended_area_limit_percent;
+void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
+                  const MeshCheckReport& report) {
+  const double mended = report.flap_area_fraction + report.filled_area_fraction;
+  const double limit = 0.01 * options.repaired_area_limit_percent;
   if (!(mended > limit)) return;
   std::string found;
   if (report.non_manifold_edges > 0) {
@@ -146,7 +146,7 @@ void judge_mending(const MeshCheckOptions& options, std::size_t boundary_edges, 
   }
   Sentence sentence = "The mesh has " + found + ". Their repair would change " +
                       format_percent(mended) + " of its area (limit " + format_percent(limit) +
-                      "). Raise " + mention(mended_area_limit_option) + " above " +
+                      "). Raise " + mention(repaired_area_limit_option) + " above " +
                       format_percent(mended) +
                       " and check the result against the scan, close the openings first (" +
                       where_meshlab_closes() + "), or scan the grain again.";
@@ -338,7 +338,7 @@ DuplicateFaces drop_copies(const Execution& execution, IndexedMesh& mesh,
                            std::vector<std::int32_t>& rings, MeshCheckReport& report) {
   const DuplicateFaces duplicates = drop_duplicate_faces(mesh, rings);
   report.duplicate_faces = duplicates.copies;
-  report.folded_faces = duplicates.folded;
+  report.back_to_back_faces = duplicates.folded;
   if (mesh.triangles.empty()) {
     refuse(
         "The faces of the mesh lie on each other in pairs, so it encloses no volume. Load the "
@@ -359,7 +359,7 @@ DuplicateFaces drop_copies(const Execution& execution, IndexedMesh& mesh,
 CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
                        const Execution& execution) {
   require_in_range(options.weld_tolerance, weld_tolerance_option);
-  require_in_range(options.mended_area_limit_percent, mended_area_limit_option);
+  require_in_range(options.repaired_area_limit_percent, repaired_area_limit_option);
   require_in_range(options.dropped_volume_limit, dropped_volume_limit_option);
   const std::string stage = "Checking the mesh";
   CheckedMesh result;
@@ -422,11 +422,11 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   if (boundary_edges == 0) report.reoriented_faces = turned;
   if (!others.empty()) refuse_loose_faces(mesh, others.size() + 1, execution);
   measure_closed(mesh, execution, report);
-  report.duplicate_area_share = duplicates.copied_area / report.area;
-  report.folded_area_share = duplicates.folded_area / report.area;
-  report.flap_area_share = flap_area / report.area;
-  report.filled_area_share = filled.area / report.area;
-  judge_mending(options, boundary_edges, filled.widest / diagonal, report);
+  report.duplicate_area_fraction = duplicates.copied_area / report.area;
+  report.back_to_back_area_fraction = duplicates.folded_area / report.area;
+  report.flap_area_fraction = flap_area / report.area;
+  report.filled_area_fraction = filled.area / report.area;
+  judge_repair(options, boundary_edges, filled.widest / diagonal, report);
   judge_others(mesh, others, options, execution, report);
   report.has_voxel_steps = has_voxel_steps(mesh);
   result.mesh = std::move(mesh);

@@ -22,7 +22,7 @@ struct MeshCheckOptions {
   double weld_tolerance = 1e-12;
   /// Max. repaired fraction of the area, in %, 0 to 100: faces dropped at non-manifold edges and
   /// faces added in holes. Above it the mesh is refused.
-  double mended_area_limit_percent = 5.0;
+  double repaired_area_limit_percent = 5.0;
   /// Max. fraction in (0, 1) of the total volume that is dropped with other bodies. Above it there
   /// is no main body, and the mesh is refused.
   double dropped_volume_limit = 0.25;
@@ -32,7 +32,7 @@ struct MeshCheckOptions {
 inline constexpr NumberOption<double> weld_tolerance_option = {
     "weld-tolerance",          "tolerance of welding / size of the scan", 0.0, 0.01, Ends::Both,
     "closer points are merged"};
-inline constexpr NumberOption<double> mended_area_limit_option = {
+inline constexpr NumberOption<double> repaired_area_limit_option = {
     "max-repaired-area",
     "max. repaired area in %",
     0.0,
@@ -63,31 +63,31 @@ struct MeshCheckReport {
   std::size_t unreferenced_vertices = 0;  ///< vertices of no face, dropped
   std::size_t degenerate_faces = 0;       ///< faces with two equal corners after welding, dropped
   std::size_t sliver_faces = 0;  ///< faces of zero area with three corners; kept, else a hole opens
-  std::size_t duplicate_faces = 0;     ///< copies of a face kept, dropped
-  double duplicate_area_share = 0.0;   ///< their fraction of area
-  std::size_t folded_faces = 0;        ///< faces folded flat onto each other, dropped
-  double folded_area_share = 0.0;      ///< their fraction of area
-  std::size_t non_manifold_edges = 0;  ///< edges of the main part with more than two faces
-  std::size_t flap_faces = 0;          ///< faces of flaps and inner walls on them, dropped
-  double flap_area_share = 0.0;        ///< their fraction of area
-  std::size_t filled_holes = 0;        ///< of the mesh kept
-  std::size_t filling_faces = 0;       ///< added in the holes
-  double filled_area_share = 0.0;      ///< their fraction of area
-  std::size_t reoriented_faces = 0;    ///< faces kept that were turned round to face outward
-  std::size_t split_vertices = 0;     ///< vertices added at places where the surface touched itself
-  std::size_t components = 0;         ///< parts after the repairs, with the part kept
-  std::size_t inner_components = 0;   ///< parts inside the part kept: pores, inclusions
-  double inner_volume_share = 0.0;    ///< sum of their volumes / volume of the mesh kept
-  std::size_t dropped_faces = 0;      ///< faces of the components not kept
-  double dropped_volume_share = 0.0;  ///< of parts outside / of these and the part kept
-  std::size_t vertices = 0;           ///< of the mesh kept
-  std::size_t faces = 0;              ///< of the mesh kept
-  int genus = 0;                      ///< of the mesh kept
-  double volume = 0.0;                ///< enclosed by its outer surface, length^3, > 0
-  double area = 0.0;                  ///< length^2
-  Vector3 centroid = Vector3::Zero();  ///< of the volume, in the input's coordinates
-  double equivalent_radius = 0.0;      ///< (3 V / 4 pi)^(1/3), length
-  bool has_voxel_steps = false;        ///< the mesh kept consists of voxel faces
+  std::size_t duplicate_faces = 0;          ///< copies of a face kept, dropped
+  double duplicate_area_fraction = 0.0;     ///< their fraction of area
+  std::size_t back_to_back_faces = 0;       ///< faces folded flat onto each other, dropped
+  double back_to_back_area_fraction = 0.0;  ///< their fraction of area
+  std::size_t non_manifold_edges = 0;       ///< edges of the main part with more than two faces
+  std::size_t flap_faces = 0;               ///< faces of flaps and inner walls on them, dropped
+  double flap_area_fraction = 0.0;          ///< their fraction of area
+  std::size_t filled_holes = 0;             ///< of the mesh kept
+  std::size_t filling_faces = 0;            ///< added in the holes
+  double filled_area_fraction = 0.0;        ///< their fraction of area
+  std::size_t reoriented_faces = 0;         ///< faces kept that were turned round to face outward
+  std::size_t split_vertices = 0;    ///< vertices added at places where the surface touched itself
+  std::size_t components = 0;        ///< parts after the repairs, with the part kept
+  std::size_t inner_components = 0;  ///< parts inside the part kept: pores, inclusions
+  double inner_volume_fraction = 0.0;    ///< sum of their volumes / volume of the mesh kept
+  std::size_t dropped_faces = 0;         ///< faces of the components not kept
+  double dropped_volume_fraction = 0.0;  ///< of parts outside / of these and the part kept
+  std::size_t vertices = 0;              ///< of the mesh kept
+  std::size_t faces = 0;                 ///< of the mesh kept
+  int genus = 0;                         ///< of the mesh kept
+  double volume = 0.0;                   ///< enclosed by its outer surface, length^3, > 0
+  double area = 0.0;                     ///< length^2
+  Vector3 centroid = Vector3::Zero();    ///< of the volume, in the input's coordinates
+  double equivalent_radius = 0.0;        ///< (3 V / 4 pi)^(1/3), length
+  bool has_voxel_steps = false;          ///< the mesh kept consists of voxel faces
 };
 
 /// A closed, oriented, connected 2-manifold and the report of its repair.
@@ -97,13 +97,13 @@ struct CheckedMesh {
 };
 
 /// Options of the shrink-wrap of a scan.
-struct EnvelopeOptions {
+struct ShrinkWrapOptions {
   /// Width up to which openings are closed, in % of the diagonal of the scan's bounding box. 0: no
   /// shrink-wrap.
   double opening_percent = 0.0;
 };
 
-inline constexpr NumberOption<double> envelope_option = {
+inline constexpr NumberOption<double> shrink_wrap_option = {
     "shrink-wrap",
     "shrink-wrap in %",
     0.0,
@@ -118,7 +118,7 @@ inline constexpr double smallest_opening_percent = 1.0;
 
 /// Throws Error(InvalidInput), with the range, for an opening that is neither 0 nor from
 /// smallest_opening_percent to 50.
-void check_envelope_options(const EnvelopeOptions& options);
+void check_shrink_wrap_options(const ShrinkWrapOptions& options);
 
 /// Treatment of handles: tunnels through the grain, and bridges from one place to another.
 enum class HandleAction {

@@ -74,7 +74,7 @@ Json json_of(const MeshQuality& quality) {
           {"edge_ratio", json_of(quality.edge_ratio)},
           {"smallest_angle_degrees", quality.smallest_angle},
           {"mean_smallest_angle_degrees", quality.mean_smallest_angle},
-          {"valence_six_fraction", quality.valence_six_share}};
+          {"valence_six_fraction", quality.valence_six_fraction}};
 }
 
 Json json_of(const OneSidedDistance& distance) {

@@ -71,11 +71,11 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   page.add_figures(figures.pictures);
   page.add_heading("Descriptors");
   page.add_table(
-      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh)),
+      compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh)),
       ComparisonNames());
   page.add_heading("Mass properties");
   page.add_rows(mass_rows(
-      {{"scan", mass_properties(result.original)}, {"remesh", mass_properties(result.remesh)}}));
+      {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}));
   page.add_heading("Distributions");
   page.add_figures(figures.distributions);
   if (result.search) {

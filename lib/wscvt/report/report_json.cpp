@@ -47,22 +47,22 @@ Json json_of(const MeshCheckReport& input) {
           {"degenerate_faces", input.degenerate_faces},
           {"sliver_faces", input.sliver_faces},
           {"duplicate_faces", input.duplicate_faces},
-          {"duplicate_area_fraction", input.duplicate_area_share},
-          {"back_to_back_faces", input.folded_faces},
-          {"back_to_back_area_fraction", input.folded_area_share},
+          {"duplicate_area_fraction", input.duplicate_area_fraction},
+          {"back_to_back_faces", input.back_to_back_faces},
+          {"back_to_back_area_fraction", input.back_to_back_area_fraction},
           {"non_manifold_edges", input.non_manifold_edges},
           {"flap_faces", input.flap_faces},
-          {"flap_area_fraction", input.flap_area_share},
+          {"flap_area_fraction", input.flap_area_fraction},
           {"filled_holes", input.filled_holes},
           {"filling_faces", input.filling_faces},
-          {"filled_area_fraction", input.filled_area_share},
+          {"filled_area_fraction", input.filled_area_fraction},
           {"reoriented_faces", input.reoriented_faces},
           {"split_vertices", input.split_vertices},
           {"components", input.components},
           {"inner_components", input.inner_components},
-          {"inner_volume_fraction", input.inner_volume_share},
+          {"inner_volume_fraction", input.inner_volume_fraction},
           {"dropped_faces", input.dropped_faces},
-          {"dropped_volume_fraction", input.dropped_volume_share},
+          {"dropped_volume_fraction", input.dropped_volume_fraction},
           {"used_vertices", input.vertices},
           {"used_faces", input.faces},
           {"genus", input.genus},
@@ -90,14 +90,14 @@ Json json_of(const OnScanReport& report) {
           {"genus", nodes.genus},
           {"split_vertices", nodes.split_vertices},
           {"coarsened_vertices", nodes.proxy_vertices},
-          {"equalization_steps", nodes.evening_steps},
-          {"equalization_flips", nodes.evening_flips},
+          {"equalization_steps", nodes.equalization_steps},
+          {"equalization_flips", nodes.equalization_flips},
           {"fit_rounds", nodes.fit_rounds},
           {"fit_flips", nodes.fit_flips},
           {"fit_relocations", nodes.relocations},
           {"volume_offset", nodes.volume_offset},
           {"mean_edge_ratio", nodes.mean_edge_ratio},
-          {"removed_intersections", nodes.mended_intersections},
+          {"removed_intersections", nodes.repaired_intersections},
           {"self_intersections", nodes.self_intersections}};
 }
 
@@ -185,7 +185,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
   const OnScanReport* on_scan = on_scan_report(result);
   const AsPublishedReport* published = as_published_report(result);
   const std::vector<DescriptorComparison> comparison =
-      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
+      compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh));
   return {
       {"format", "wscvt-report"},
       {"version", 3},
@@ -202,8 +202,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"node_count_search", json_of(result.search)},
       {"result",
        {{"vertices", result.mesh.points.size()}, {"faces", result.mesh.triangles.size()}}},
-      {"quality",
-       {{"scan", json_of(result.original_quality)}, {"remesh", json_of(result.quality)}}},
+      {"quality", {{"scan", json_of(result.scan_quality)}, {"remesh", json_of(result.quality)}}},
       {"rms_distance",
        {{"two_sided", result.rms_distance},
         {"percent_of_equivalent_radius",
@@ -216,7 +215,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"descriptors", json_of(comparison, ComparisonNames())},
       {"descriptor_names", json_names_of(comparison)},
       {"mass",
-       {{"scan", json_of(mass_properties(result.original))},
+       {{"scan", json_of(mass_properties(result.scan))},
         {"remesh", json_of(mass_properties(result.remesh))}}},
       {"warnings", result.warnings},
   };

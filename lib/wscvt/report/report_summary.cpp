@@ -45,7 +45,7 @@ std::vector<std::string> descriptor_errors(const RemeshResult& result) {
        {"sphericity_wadell", "sphericity"},
        {"sdq_invariant", "Sdq"}}};
   const std::vector<DescriptorComparison> rows =
-      compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
+      compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh));
   std::vector<std::string> errors;
   for (const auto& [key, label] : shown) {
     for (const DescriptorComparison& row : rows) {

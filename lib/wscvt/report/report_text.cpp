@@ -45,14 +45,14 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   add(input.unreferenced_vertices, "unused vertex", "unused vertices", "removed");
   add(input.degenerate_faces, "degenerate face", "degenerate faces", "removed");
   add(input.duplicate_faces, "duplicate face", "duplicate faces",
-      with_area("removed", input.duplicate_area_share));
-  add(input.folded_faces, "back-to-back face", "back-to-back faces",
-      with_area("removed", input.folded_area_share));
+      with_area("removed", input.duplicate_area_fraction));
+  add(input.back_to_back_faces, "back-to-back face", "back-to-back faces",
+      with_area("removed", input.back_to_back_area_fraction));
   add(input.non_manifold_edges, "non-manifold edge", "non-manifold edges", "separated");
   add(input.flap_faces, "face", "faces",
-      with_area("of flaps and internal walls removed there", input.flap_area_share));
+      with_area("of flaps and internal walls removed there", input.flap_area_fraction));
   add(input.filled_holes, "hole", "holes", "filled");
-  add(input.filling_faces, "face", "faces", with_area("put into them", input.filled_area_share));
+  add(input.filling_faces, "face", "faces", with_area("put into them", input.filled_area_fraction));
   add(input.reoriented_faces, "face", "faces", "turned outward");
   add(input.split_vertices, "vertex", "vertices", "duplicated where the surface touches itself");
   add(input.sliver_faces, "face", "faces", "of no area kept");
@@ -60,9 +60,9 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   const std::size_t inner = input.inner_components;
   const std::size_t outer = input.components > inner ? input.components - inner - 1 : 0;
   add(inner, "inner surface", "inner surfaces",
-      "removed (" + format_percent(input.inner_volume_share) + " of the volume)");
+      "removed (" + format_percent(input.inner_volume_fraction) + " of the volume)");
   add(outer, "smaller body", "smaller bodies",
-      "removed (" + format_percent(input.dropped_volume_share) + " of the volume)");
+      "removed (" + format_percent(input.dropped_volume_fraction) + " of the volume)");
   if (inner + outer > 0) {
     parts.push_back(counted(input.dropped_faces, "face", "faces") + " removed with them");
   }
@@ -149,10 +149,10 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
   lines.push_back(
       line("Weighting", weighting_text(options, options.weighting == CellWeighting::Curvature)));
   const ScanNodesReport& nodes = report.nodes;
-  lines.push_back(
-      line("Nodes", "coarsened on " + counted(nodes.proxy_vertices, "vertex", "vertices") +
-                        ", edge lengths equalized in " +
-                        counted(static_cast<std::size_t>(nodes.evening_steps), "step", "steps")));
+  lines.push_back(line(
+      "Nodes", "coarsened on " + counted(nodes.proxy_vertices, "vertex", "vertices") +
+                   ", edge lengths equalized in " +
+                   counted(static_cast<std::size_t>(nodes.equalization_steps), "step", "steps")));
   if (nodes.fit_rounds > 0) {
     lines.push_back(
         line("Fit", counted(static_cast<std::size_t>(nodes.fit_rounds), "round", "rounds") + ", " +
@@ -167,8 +167,8 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
   lines.push_back(line("Intersections",
                        counted(nodes.self_intersections, "pair", "pairs") + " of " +
                            counted(result.mesh.triangles.size(), "triangle", "triangles") +
-                           (nodes.mended_intersections > 0
-                                ? ", " + std::to_string(nodes.mended_intersections) + " removed"
+                           (nodes.repaired_intersections > 0
+                                ? ", " + std::to_string(nodes.repaired_intersections) + " removed"
                                 : std::string())));
 }
 
@@ -242,7 +242,7 @@ void append_distances(const RemeshResult& result, std::vector<std::string>& line
 }
 
 void append_quality(const RemeshResult& result, std::vector<std::string>& lines) {
-  const MeshQuality& a = result.original_quality;
+  const MeshQuality& a = result.scan_quality;
   const MeshQuality& b = result.quality;
   const auto row = [](const char* label, double before, double after) {
     return std::vector<std::string>{label, format_number(before, 4), format_number(after, 4)};
@@ -260,14 +260,14 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
       row("  smallest angle, degrees", a.smallest_angle, b.smallest_angle),
       row("  smallest angle of the triangles, mean, degrees", a.mean_smallest_angle,
           b.mean_smallest_angle),
-      row("  vertices with six neighbours, %", 100.0 * a.valence_six_share,
-          100.0 * b.valence_six_share),
+      row("  vertices with six neighbours, %", 100.0 * a.valence_six_fraction,
+          100.0 * b.valence_six_fraction),
   };
   for (std::string& text : aligned_lines(rows)) lines.push_back(std::move(text));
 }
 
 std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
-  return compare_descriptors(list_descriptors(result.original), list_descriptors(result.remesh));
+  return compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh));
 }
 
 }  // namespace
@@ -293,8 +293,8 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
     lines.push_back(std::move(text));
   }
-  for (std::string& text : aligned_lines(mass_rows({{"scan", mass_properties(result.original)},
-                                                    {"remesh", mass_properties(result.remesh)}}))) {
+  for (std::string& text : aligned_lines(mass_rows(
+           {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }
   for (const std::string& warning : result.warnings) lines.push_back(line("Warning", warning));

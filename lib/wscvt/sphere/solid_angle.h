@@ -46,8 +46,8 @@ struct SolidAngleSums {
     return *this;
   }
 
-  /// See folded_solid_angle in folded_solid_angle.h.
-  double folded_share() const {
+  /// See overhang_solid_angle in overhang_solid_angle.h.
+  double overhang_fraction() const {
     constexpr double four_pi = 4.0 * pi;
     // The signed angles sum to 4 pi seen from inside and to 0 seen from outside.
     const bool inside = !touched && outward - backward > 0.5 * four_pi;

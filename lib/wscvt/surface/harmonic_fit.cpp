@@ -14,7 +14,7 @@
 #include "wscvt/base/pi.h"
 #include "wscvt/base/plastic_sequence.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
 #include "wscvt/surface/mesh_surface.h"
@@ -297,7 +297,7 @@ void scale(HarmonicFitReport& report, double unit) {
 SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
                                        const Execution& execution) {
   SeriesCoefficients coefficients;
-  const double overhang = folded_solid_angle(scan, Vector3::Zero(), execution);
+  const double overhang = overhang_solid_angle(scan, Vector3::Zero(), execution);
   if (overhang == 0.0) {
     const MeshSurface rays(scan, Vector3::Zero(), 1.0, overhang, execution);
     coefficients.radius = fit_harmonics(rays, degree, execution).surface.coefficients();

@@ -120,7 +120,7 @@ class HarmonicMap : public SphereSurface {
 
 /// Returns the series of the radius of a closed scan about the origin, in its units (see
 /// fit_harmonics); without coefficients if rays from the origin do not see all of the scan (see
-/// folded_solid_angle). Throws Error: InvalidInput for a degree out of range, NumericalFailure,
+/// overhang_solid_angle). Throws Error: InvalidInput for a degree out of range, NumericalFailure,
 /// Cancelled.
 SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
                                        const Execution& execution);

@@ -6,7 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 
 namespace wscvt {
 
@@ -21,11 +21,12 @@ constexpr std::size_t entries_per_triangle = 20;
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
                          const Execution& execution)
-    : MeshSurface(mesh, centre, unit, folded_solid_angle(mesh, centre, execution), execution) {}
+    : MeshSurface(mesh, centre, unit, overhang_solid_angle(mesh, centre, execution), execution) {}
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
-                         double folded_share, const Execution& execution)
-    : star_shaped_(folded_share == 0.0), cube_(CubeMap::resolution_for(mesh.triangles.size())) {
+                         double overhang_fraction, const Execution& execution)
+    : star_shaped_(overhang_fraction == 0.0),
+      cube_(CubeMap::resolution_for(mesh.triangles.size())) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput, "The mesh is empty. Check it before casting rays at it.");
   }
@@ -38,7 +39,7 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   execution.parallel_for(mesh.points.size(), ray_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
-  if (folded_share >= 1.0) {
+  if (overhang_fraction >= 1.0) {
     throw Error(ErrorCode::InvalidInput,
                 "The centre lies outside the mesh or on it, so rays from it do not go round the "
                 "surface once. Use a centre inside, e.g. the centroid of a compact grain.");

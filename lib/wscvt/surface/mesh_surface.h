@@ -20,9 +20,9 @@ class MeshSurface : public RadialSurface {
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
               const Execution& execution);
 
-  /// Constructs with a known `folded_share`, the mesh's folded_solid_angle about the centre. This
-  /// saves a sixth of the construction time.
-  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double folded_share,
+  /// Constructs with a known `overhang_fraction`, the mesh's overhang_solid_angle about the centre.
+  /// This saves a sixth of the construction time.
+  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double overhang_fraction,
               const Execution& execution);
 
   const IndexedMesh& mesh() const { return mesh_; }

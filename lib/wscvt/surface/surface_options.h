@@ -26,9 +26,9 @@ inline constexpr NumberOption<int> harmonic_degree_option = {
     "of the surface that carries the nodes (as-published), of the coefficients file only "
     "(on-scan)"};
 
-/// Default limit of the overhang fraction (folded_solid_angle), in % of the solid angle. Up to it a
-/// body is treated as star-shaped, and its outermost surface replaces it.
-inline constexpr double usual_fold_limit_percent = 5.0;
+/// Default limit of the overhang fraction (overhang_solid_angle), in % of the solid angle. Up to it
+/// a body is treated as star-shaped, and its outermost surface replaces it.
+inline constexpr double usual_overhang_limit_percent = 5.0;
 
 /// Reason why a series has no higher degree.
 enum class DegreeLimit {

@@ -134,11 +134,11 @@ std::vector<Run> all_runs(const IndexedMesh& scan) {
     o.method = AsPublishedOptions();
     o.node_count = 1000000;
   });
-  add("remesh of the wrap at 5 %", [](RemeshOptions& o) { o.envelope.opening_percent = 5.0; });
-  add("remesh of the wrap at 2 %", [](RemeshOptions& o) { o.envelope.opening_percent = 2.0; });
+  add("remesh of the wrap at 5 %", [](RemeshOptions& o) { o.shrink_wrap.opening_percent = 5.0; });
+  add("remesh of the wrap at 2 %", [](RemeshOptions& o) { o.shrink_wrap.opening_percent = 2.0; });
   add("remesh of the points' wrap at 5 %", [](RemeshOptions& o) {
     o.points = true;
-    o.envelope.opening_percent = 5.0;
+    o.shrink_wrap.opening_percent = 5.0;
   });
   add("remesh with coefficients", [](RemeshOptions& o) { o.measures.series = scan_harmonics; });
   for (const std::string ending : {".ply", ".obj", ".off", ".stl"}) {

@@ -136,7 +136,7 @@ Table write_distributions(const std::string& folder, const std::vector<Scan>& sc
     };
     append("edge_length", before.relative_edge_length, after.relative_edge_length);
     append("edge_ratio", before.edge_ratio, after.edge_ratio);
-    table.push_back(quality_row(scan.name + " scan", nodes, result.original_quality));
+    table.push_back(quality_row(scan.name + " scan", nodes, result.scan_quality));
     table.push_back(quality_row(scan.name + " WSCVT-D", nodes, result.quality));
   }
   write_csv(folder + "/figure7.csv", shares);

@@ -146,7 +146,7 @@ SamplingErrors sampling_errors(const std::vector<Scan>& scans, int poses,
           }
         }
         const Measures value = measures(remeshed.remesh);
-        const Measures original = measures(remeshed.original);
+        const Measures original = measures(remeshed.scan);
         for (std::size_t m = 0; m < measure_count; ++m) {
           const double error = std::abs(relative_error_percent(value[m], original[m]));
           sums[k].value[m] += value[m] / poses;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/shrink_wrap.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -75,7 +75,7 @@ struct PointOracle : parts::Point_set_oracle<Kernel> {
   const std::vector<Kernel::Point_3>* points_;
 };
 
-constexpr const char* envelope_stage = "Wrapping the scan";
+constexpr const char* shrink_wrap_stage = "Wrapping the scan";
 
 /// Faces given to the oracle at once: some hundredths of a second.
 constexpr std::size_t faces_a_report = 1 << 17;
@@ -86,7 +86,7 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
 
   template <class Wrapper, class Gate>
   void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
-    execution.report(0.1, envelope_stage);
+    execution.report(0.1, shrink_wrap_stage);
   }
 
   const Execution& execution;
@@ -105,8 +105,8 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
   if (tree.empty()) refuse_nothing();  // CGAL leaves out faces without area
   using Traits = typename std::decay_t<decltype(tree)>::AABB_traits;
   tree.custom_build(tree.traits().compute_bbox_object(),
-                    ReportingSplit<Traits>(tree.traits(), execution, envelope_stage));
-  execution.report(0.0, envelope_stage);
+                    ReportingSplit<Traits>(tree.traits(), execution, shrink_wrap_stage));
+  execution.report(0.0, shrink_wrap_stage);
   oracle.choose_hints();
   Wrap wrap;
   ReportingVisitor visitor(execution);
@@ -117,7 +117,7 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
   parts::Alpha_wrapper_3<Oracle>{oracle}(alpha, offset, wrap, parameters,
                                          CGAL::parameters::default_values());
 #endif
-  execution.report(0.9, envelope_stage);
+  execution.report(0.9, shrink_wrap_stage);
   // The wrap is made off the scan to avoid the scan's flaws, then moved back so that its volume is
   // not too large. A tenth of the distance stays, because several vertices about a corner have one
   // nearest point there.
@@ -135,7 +135,7 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
   FaceOracle oracle(alpha);
   std::vector<std::array<std::size_t, 3>> faces;
   for (std::size_t begin = 0; begin < triangles.size(); begin += faces_a_report) {
-    execution.report(0.0, envelope_stage);
+    execution.report(0.0, shrink_wrap_stage);
     faces.clear();
     for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
       const Triangle& t = triangles[f];
@@ -152,20 +152,20 @@ constexpr double offset_share = 0.1;
 
 }  // namespace
 
-void check_envelope_options(const EnvelopeOptions& options) {
-  require_in_range(options.opening_percent, envelope_option);
+void check_shrink_wrap_options(const ShrinkWrapOptions& options) {
+  require_in_range(options.opening_percent, shrink_wrap_option);
   if (options.opening_percent > 0.0 && options.opening_percent < smallest_opening_percent) {
-    throw Error(ErrorCode::InvalidInput, "The " + std::string(envelope_option.subject) + " is " +
+    throw Error(ErrorCode::InvalidInput, "The " + std::string(shrink_wrap_option.subject) + " is " +
                                              format_number(options.opening_percent) +
                                              ". Give 0 or " +
                                              format_number(smallest_opening_percent) + " to " +
-                                             format_number(envelope_option.maximum) + ".");
+                                             format_number(shrink_wrap_option.maximum) + ".");
   }
 }
 
-IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
-                        const Execution& execution) {
-  check_envelope_options(options);
+IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
+                           const Execution& execution) {
+  check_shrink_wrap_options(options);
   const bool of_points = scan.triangles.empty();
   Eigen::AlignedBox3d box;
   if (of_points) {
@@ -181,7 +181,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
   if (!(options.opening_percent > 0.0) || !(box.diagonal().norm() > 0.0)) {
     refuse_nothing();
   }
-  execution.report(0.0, envelope_stage);
+  execution.report(0.0, shrink_wrap_stage);
   // Uses units of the diagonal about the middle, so that digits do not depend on position and size.
   const double unit = box.diagonal().norm();
   const Vector3 middle = box.center();
@@ -198,7 +198,7 @@ IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
   const Wrap wrap = of_points ? alpha_wrap(PointOracle(points), alpha, offset, execution)
                               : alpha_wrap(oracle_of(points, scan.triangles, alpha, execution),
                                            alpha, offset, execution);
-  execution.report(1.0, envelope_stage);
+  execution.report(1.0, shrink_wrap_stage);
   IndexedMesh result;
   std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());
   for (const auto v : wrap.vertices()) {

@@ -10,7 +10,7 @@ namespace wscvt {
 /// first hit, / 4 pi. The unsigned solid angles of the faces of the closed mesh sum to 4 pi (1 +
 /// overhang). An overhang counts twice: its surface that faces `centre` and the surface behind it.
 /// 0 for a star-shaped mesh; at least 1 if `centre` lies outside or on a face.
-double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
-                          const Execution& execution);
+double overhang_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
+                            const Execution& execution);
 
 }  // namespace wscvt

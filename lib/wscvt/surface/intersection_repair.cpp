@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/intersection_mending.h"
+#include "wscvt/surface/intersection_repair.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/evening.h"
+#include "wscvt/nodes/equalization.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 struct Start {
   EditMesh nodes;
   std::vector<std::int32_t> places;
-  EveningSurface surface;
+  EqualizationSurface surface;
 };
 
 Start start_on(const IndexedMesh& body, int count, std::vector<double> density = {}) {
@@ -49,7 +49,7 @@ TEST(Evening, MakesCellsEvenAndKeepsNodesOnTheSurface) {
   const IndexedMesh body = test::scaled(test::lumpy(4), Vector3(1.4, 1.0, 0.8));
   Start start = start_on(body, 250);
   const double ratio = mean_edge_ratio(start.nodes);
-  const EveningReport report =
+  const EqualizationReport report =
       even_nodes(start.nodes, start.places, start.surface, 100, Execution(1));
   EXPECT_EQ(report.steps, 100);
   EXPECT_GT(report.flips, 0);

@@ -21,7 +21,7 @@ namespace wscvt {
 /// Throws Error(InvalidInput) if the opening is out of range or below smallest_opening_percent, or
 /// if the scan's extent is 0 or not between 1e-60 and 1e60. Throws as keep_usable_faces or, for
 /// points, different_points; Error(Cancelled). Uses one thread.
-IndexedMesh envelope_of(IndexedMesh scan, const EnvelopeOptions& options,
-                        const Execution& execution);
+IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
+                           const Execution& execution);
 
 }  // namespace wscvt

@@ -10,13 +10,13 @@
 namespace wscvt {
 
 /// The surface for edge-length equalization: a mesh of some twenty vertices per node.
-struct EveningSurface {
+struct EqualizationSurface {
   EditMesh mesh;
   std::vector<double> density;  ///< wanted at each vertex, mean 1; empty: uniform
 };
 
 /// Counts of even_nodes.
-struct EveningReport {
+struct EqualizationReport {
   int steps = 0;
   int flips = 0;
 };
@@ -32,8 +32,9 @@ struct EveningReport {
 /// `nodes`: a closed mesh near the surface, moved in place; `places`: a triangle of the surface
 /// near each node, updated. Throws Error(Cancelled). The result does not depend on the number of
 /// threads.
-EveningReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
-                         const EveningSurface& surface, int steps, const Execution& execution);
+EqualizationReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
+                              const EqualizationSurface& surface, int steps,
+                              const Execution& execution);
 
 /// Returns the area of every node's Voronoi cell, from the nodes' own triangles. The circumcentre
 /// of a very obtuse triangle is moved inwards, so that the areas still sum to the mesh's area.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/folded_solid_angle.h"
+#include "wscvt/repair/overhang_solid_angle.h"
 
 #include <cstddef>
 #include <vector>
@@ -16,8 +16,8 @@ constexpr std::size_t fold_block = 16384;
 
 }  // namespace
 
-double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
-                          const Execution& execution) {
+double overhang_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
+                            const Execution& execution) {
   std::vector<Vector3> directions(mesh.points.size());
   execution.parallel_for(directions.size(), fold_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -34,7 +34,7 @@ double folded_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
                       }
                       return part;
                     })
-      .folded_share();
+      .overhang_fraction();
 }
 
 }  // namespace wscvt

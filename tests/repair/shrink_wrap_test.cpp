@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/envelope.h"
+#include "wscvt/repair/shrink_wrap.h"
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@
 namespace wscvt {
 namespace {
 
-EnvelopeOptions opening(double percent) {
-  EnvelopeOptions options;
+ShrinkWrapOptions opening(double percent) {
+  ShrinkWrapOptions options;
   options.opening_percent = percent;
   return options;
 }
@@ -40,14 +40,14 @@ MeshCheckReport checked(const IndexedMesh& mesh) {
 TEST(Envelope, OfABallLiesOnIt) {
   const IndexedMesh ball = test::sphere(4);
   const double diagonal = 2.0 * std::sqrt(3.0);
-  const IndexedMesh envelope = envelope_of(ball, opening(4.0), Execution(1));
-  EXPECT_EQ(checked(envelope).genus, 0);
+  const IndexedMesh shrink_wrap = shrink_wrap_of(ball, opening(4.0), Execution(1));
+  EXPECT_EQ(checked(shrink_wrap).genus, 0);
   // It stands off by a hundredth of the opening; the ball's own faces lie .0022 inside at most.
   const double offset = 0.01 * 0.04 * diagonal;
-  for (const Vector3& p : envelope.points) EXPECT_NEAR(p.norm(), 1.0 + offset, 0.0025);
+  for (const Vector3& p : shrink_wrap.points) EXPECT_NEAR(p.norm(), 1.0 + offset, 0.0025);
   // Faces as wide as the opening cut off up to .14^2 / 6 of the radius; a tenth of the opening
   // farther out, where the wrap is made, the volume would be 4 % larger.
-  EXPECT_NEAR(volume_of(envelope, Execution(1)) / volume_of(ball, Execution(1)), 1.0, 0.01);
+  EXPECT_NEAR(volume_of(shrink_wrap, Execution(1)) / volume_of(ball, Execution(1)), 1.0, 0.01);
 }
 
 TEST(Envelope, OfPointsSeesNothingOfWhatLiesInside) {
@@ -60,15 +60,15 @@ TEST(Envelope, OfPointsSeesNothingOfWhatLiesInside) {
   for (int i = 0; i < 50; ++i) {
     cloud.points.emplace_back(coordinate(engine), coordinate(engine), coordinate(engine));
   }
-  const IndexedMesh envelope = envelope_of(cloud, opening(8.0), Execution(1));
-  const MeshCheckReport report = checked(envelope);
+  const IndexedMesh shrink_wrap = shrink_wrap_of(cloud, opening(8.0), Execution(1));
+  const MeshCheckReport report = checked(shrink_wrap);
   EXPECT_EQ(report.genus, 0);
   EXPECT_EQ(report.components, 1U);
   // Faces as wide as the opening cut off up to .28^2 / 6 of the radius, of the volume three times
   // as much.
   EXPECT_NEAR(report.volume / volume_of(ball, Execution(1)), 1.0, 0.04);
   std::shuffle(cloud.points.begin(), cloud.points.end(), engine);
-  EXPECT_EQ(envelope_of(cloud, opening(8.0), Execution(2)).points, envelope.points);
+  EXPECT_EQ(shrink_wrap_of(cloud, opening(8.0), Execution(2)).points, shrink_wrap.points);
 }
 
 TEST(Envelope, LeavesOutFacesWithoutAPlaceOrAnArea) {
@@ -80,22 +80,22 @@ TEST(Envelope, LeavesOutFacesWithoutAPlaceOrAnArea) {
   damaged.triangles.push_back({0, 1, lost});
   damaged.triangles.push_back({0, lost + 1, 1});
   damaged.triangles.push_back({2, 3, 3});
-  const IndexedMesh envelope = envelope_of(damaged, opening(10.0), Execution(1));
-  EXPECT_EQ(envelope.points, envelope_of(ball, opening(10.0), Execution(1)).points);
+  const IndexedMesh shrink_wrap = shrink_wrap_of(damaged, opening(10.0), Execution(1));
+  EXPECT_EQ(shrink_wrap.points, shrink_wrap_of(ball, opening(10.0), Execution(1)).points);
 }
 
 TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
   // Drilled 0.4 wide, with a diagonal of about 3.46.
   const IndexedMesh drilled = test::ball_with_a_tunnel();
-  EXPECT_EQ(checked(envelope_of(drilled, opening(20.0), Execution(1))).genus, 0);
-  EXPECT_EQ(checked(envelope_of(drilled, opening(2.0), Execution(1))).genus, 1);
+  EXPECT_EQ(checked(shrink_wrap_of(drilled, opening(20.0), Execution(1))).genus, 0);
+  EXPECT_EQ(checked(shrink_wrap_of(drilled, opening(2.0), Execution(1))).genus, 1);
 }
 
 TEST(Envelope, StopsWhenAskedTo) {
   // Faces in blocks of 131,072, their tree in parts of 8,192, and once a step of the wrapping.
   const IndexedMesh ball = test::sphere(5);
   test::expect_to_be_stopped(
-      [&](const Execution& execution) { envelope_of(ball, opening(10.0), execution); },
+      [&](const Execution& execution) { shrink_wrap_of(ball, opening(10.0), execution); },
       "Wrapping the scan", 200);
 }
 
@@ -112,9 +112,9 @@ TEST(Envelope, HasNoneOfTheFlawsOfTheScan) {
     if (f % 5 == 0) std::swap(soup.triangles.back()[0], soup.triangles.back()[1]);
   }
   EXPECT_ERROR(check_mesh(soup, MeshCheckOptions(), Execution(1)), InvalidInput);
-  const IndexedMesh envelope = envelope_of(soup, opening(15.0), Execution(1));
-  EXPECT_EQ(checked(envelope).genus, 0);
-  EXPECT_EQ(checked(envelope).components, 1U);
+  const IndexedMesh shrink_wrap = shrink_wrap_of(soup, opening(15.0), Execution(1));
+  EXPECT_EQ(checked(shrink_wrap).genus, 0);
+  EXPECT_EQ(checked(shrink_wrap).components, 1U);
 }
 
 TEST(Envelope, IsTheSameWhereverAndHoweverLargeTheScanIs) {
@@ -122,8 +122,8 @@ TEST(Envelope, IsTheSameWhereverAndHoweverLargeTheScanIs) {
   // Powers of two and whole shifts leave the digits as they are.
   IndexedMesh moved = grain;
   for (Vector3& p : moved.points) p = 1024.0 * p;
-  const IndexedMesh here = envelope_of(grain, opening(5.0), Execution(1));
-  const IndexedMesh there = envelope_of(moved, opening(5.0), Execution(3));
+  const IndexedMesh here = shrink_wrap_of(grain, opening(5.0), Execution(1));
+  const IndexedMesh there = shrink_wrap_of(moved, opening(5.0), Execution(3));
   ASSERT_EQ(here.triangles, there.triangles);
   for (std::size_t i = 0; i < here.points.size(); ++i) {
     EXPECT_EQ(Vector3(1024.0 * here.points[i]), there.points[i]);
@@ -131,20 +131,20 @@ TEST(Envelope, IsTheSameWhereverAndHoweverLargeTheScanIs) {
 }
 
 TEST(Envelope, RefusesWhatItCannotWrap) {
-  EXPECT_ERROR(envelope_of({}, opening(2.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of({}, opening(2.0), Execution(1)), InvalidInput);
   IndexedMesh wrong = test::sphere(1);
   wrong.triangles[3][1] = 1000;
-  EXPECT_ERROR(envelope_of(wrong, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(wrong, opening(20.0), Execution(1)), InvalidInput);
   wrong = test::sphere(1);
   for (Vector3& p : wrong.points) p *= std::numeric_limits<double>::quiet_NaN();
-  EXPECT_ERROR(envelope_of(wrong, opening(20.0), Execution(1)), InvalidInput);
-  EXPECT_ERROR(envelope_of({wrong.points, {}}, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(wrong, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of({wrong.points, {}}, opening(20.0), Execution(1)), InvalidInput);
   // An extent, but no area.
   const IndexedMesh needle = {{Vector3(0, 0, 0), Vector3(1, 0, 0), Vector3(2, 0, 0)}, {{0, 1, 2}}};
-  EXPECT_ERROR(envelope_of(needle, opening(20.0), Execution(1)), InvalidInput);
-  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.0), Execution(1)), InvalidInput);
-  EXPECT_ERROR(envelope_of(test::sphere(2), opening(0.9), Execution(1)), InvalidInput);
-  EXPECT_ERROR(envelope_of(test::sphere(2), opening(51.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(needle, opening(20.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(test::sphere(2), opening(0.0), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(test::sphere(2), opening(0.9), Execution(1)), InvalidInput);
+  EXPECT_ERROR(shrink_wrap_of(test::sphere(2), opening(51.0), Execution(1)), InvalidInput);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/evening.h"
+#include "wscvt/nodes/equalization.h"
 
 #include <algorithm>
 #include <array>
@@ -141,7 +141,7 @@ std::vector<Vector3> smoothed_vectors(const EditMesh& mesh, const Execution& exe
 
 class Evening {
  public:
-  Evening(EditMesh& nodes, std::vector<std::int32_t>& places, const EveningSurface& surface,
+  Evening(EditMesh& nodes, std::vector<std::int32_t>& places, const EqualizationSurface& surface,
           const Execution& execution)
       : nodes_(nodes),
         places_(places),
@@ -165,8 +165,8 @@ class Evening {
     edge_ = mean_edge_length(nodes_);
   }
 
-  EveningReport run(int steps) {
-    EveningReport report;
+  EqualizationReport run(int steps) {
+    EqualizationReport report;
     for (int step = 0; step < steps; ++step) {
       execution_.report(static_cast<double>(step) / steps, "Equalizing edge lengths");
       const bool flips = step < first_flips || step % steps_a_flip == 0;
@@ -344,7 +344,7 @@ class Evening {
 
   EditMesh& nodes_;
   std::vector<std::int32_t>& places_;
-  const EveningSurface& surface_;
+  const EqualizationSurface& surface_;
   const Execution& execution_;
   std::vector<Vector3> surface_vectors_;
   std::size_t count_;
@@ -361,8 +361,9 @@ class Evening {
 
 }  // namespace
 
-EveningReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
-                         const EveningSurface& surface, int steps, const Execution& execution) {
+EqualizationReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
+                              const EqualizationSurface& surface, int steps,
+                              const Execution& execution) {
   return Evening(nodes, places, surface, execution).run(steps);
 }
 
