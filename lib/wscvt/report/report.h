@@ -31,7 +31,7 @@ std::string origin_sentence(const ReportOrigin& origin);
 std::vector<std::string> report_lines(const RemeshResult& result);
 
 /// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of
-/// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq) and the rms distance. At
+/// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq), the distances. At
 /// most 80 columns; five lines if nothing was repaired. Without warnings.
 std::vector<std::string> summary_lines(const RemeshResult& result);
 

@@ -94,7 +94,8 @@ std::vector<std::string> summary_lines(const RemeshResult& result) {
                    format_number(result.quality.smallest_angle, 3) + " degrees");
   append_topic(lines, "Errors", listed(descriptor_errors(result), 5));
   append_topic(lines, "Distance",
-               "rms " + percent_of_radius(result, result.rms_distance) +
+               "rms " + percent_of_radius(result, result.rms_distance) + ", largest " +
+                   percent_of_radius(result, result.largest_distance) +
                    " of the equivalent radius " + format_number(result.input.equivalent_radius));
   return lines;
 }
