@@ -375,6 +375,20 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   EXPECT_EQ(segmented(options).grains.size(), 8U);
   options.phases = 1;
   EXPECT_EQ(segmented(options).grains.size(), 2U);
+  // Also if a circle was scanned only.
+  options.phases.reset();
+  make({200, 90, 90});
+  for (int z = 0; z < 40; ++z) {
+    for (int y = 0; y < 52; ++y) {
+      for (int x = 0; x < 56; ++x) {
+        if (std::hypot(x - 27.5, y - 25.5) > 26.9) made_.at(x, y, z) = 0;
+      }
+    }
+  }
+  write_made();
+  EXPECT_GT(segmented().not_scanned, 0U);
+  EXPECT_NE(looks(segmented()).find("--dark"), std::string::npos) << looks(segmented());
+  EXPECT_EQ(segmented(options).grains.size(), 8U);
   // The wrong way round is told too.
   make({40, 110, 110});
   write_made();

@@ -172,7 +172,10 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
         "and extract read labels directly.");
   }
   constexpr double much = 0.05;
-  const bool is_full = segmentation.material == segmentation.voxels;
+  // Grains at the border of what was scanned leave some of it open.
+  constexpr double full = 0.85;
+  const bool is_full =
+      share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
   if (is_full && segmentation.filled > 0) {
     doubts.push_back("The material fills the volume, with holes of " +
                      format_percent(share_of(segmentation.filled, segmentation.material)) +
