@@ -56,7 +56,7 @@ whole sample, and measures their shape.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME wscvt)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 wscvt_install_documents(program wscvt README.md CHANGELOG.md)
-install(FILES lib/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt/lib COMPONENT program)
+install(FILES lib/doc/program.md lib/doc/method.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wscvt/lib/doc COMPONENT program)
 
 if(WSCVT_BUILD_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)

@@ -4,7 +4,7 @@
 namespace wscvt::program {
 
 /// Exit codes of the program. A signal that cancels it gives 128 + its number. Shell scripts use
-/// the codes; the help and lib/README.md list them.
+/// the codes; the help and lib/doc/program.md list them.
 enum ExitCode {
   Done = 0,
   Failed = 1,          ///< the work could not be done; a message says why
