@@ -2,22 +2,20 @@
 #include "batch_command.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <iterator>
+#include <memory>
 #include <optional>
 #include <sstream>
 
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
-#include "grain_job.h"
+#include "grain_inputs.h"
+#include "job_on_terminal.h"
 #include "remesh_arguments.h"
 #include "signals.h"
 #include "toolbox/clump/first_contact.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
-#include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
@@ -34,12 +32,6 @@
 namespace wscvt::program {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Returns the options that must be equal when a batch is started again, so without the number of
 /// threads.
@@ -98,71 +90,74 @@ GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, Me
   return shape;
 }
 
-/// Returns the row of a grain with these records.
-GrainRow row_of(std::vector<std::string> records, const std::string& error) {
-  GrainRow row{std::move(records.front()), error, {}};
-  row.others.assign(std::make_move_iterator(records.begin() + 1),
-                    std::make_move_iterator(records.end()));
-  return row;
+/// Remeshes a grain, writes its meshes and returns its records.
+std::vector<std::string> make_grain(const BatchArguments& arguments, GrainAtWork& grain) {
+  const Execution& execution = grain.execution;
+  const std::string first = grain.folders.front().file_of(grain.name);
+  RemeshOptions options = arguments.options;
+  options.measures.repaired_scan =
+      describes_scan(arguments.shapes.described) || arguments.shapes.contacts;
+  options.measures.written = [&first](const RemeshResult& made) {
+    return as_written(made.mesh, first);
+  };
+  const MeshAttributes& read_attributes = grain.scan.attributes;
+  const bool carries = holds_attributes(first) && !read_attributes.empty();
+  const IndexedMesh read = carries ? grain.scan.mesh : IndexedMesh();
+  std::vector<RemeshResult> results =
+      remeshes_of(arguments, std::move(grain.scan.mesh), options, execution);
+  std::vector<std::string> records;
+  MeasuredScan measured;
+  for (std::size_t level = 0; level < results.size(); ++level) {
+    RemeshResult& result = results[level];
+    const JobFolder& folder = grain.folders[level];
+    result.warnings.insert(result.warnings.begin(), grain.scan.warnings.begin(),
+                           grain.scan.warnings.end());
+    const bool describes = arguments.shapes.described != Described::None;
+    std::string error;
+    GrainShape shape;
+    if (describes) shape = measure_level(arguments.shapes, result, measured, error, execution);
+    const MeshAttributes attributes =
+        carries ? carried_attributes(read, read_attributes, result.mesh, execution)
+                : MeshAttributes();
+    write_mesh(result.mesh, attributes, folder.file_of(grain.name));
+    records.push_back(
+        sample_row(grain.name, result, arguments.seconds ? Seconds(grain.seconds()) : Seconds()));
+    if (!describes) continue;
+    records.push_back(error.empty()
+                          ? shape_row(grain.name, folder.name_of(grain.name), result, shape)
+                          : failed_shape_row(grain.name, error, arguments.shapes));
+  }
+  return records;
 }
 
-/// Remeshes a grain, writes its meshes and returns its row. Throws as row_or_failure.
-GrainRow remeshed_row(const BatchArguments& arguments, const BatchOutput& output,
-                      BatchGrains& grains, std::size_t k, const Execution& execution) {
-  const std::string& grain = grains.names()[k];
-  const Clock::time_point start = Clock::now();
+GrainJob batch_job(const BatchArguments& arguments) {
   const bool describes = arguments.shapes.described != Described::None;
-  const auto seconds = [&]() -> Seconds {
-    if (!arguments.seconds) return {};
-    return seconds_since(start);
+  GrainJob job;
+  job.folder = arguments.folder;
+  job.shard = arguments.shard;
+  job.ending = arguments.format;
+  for (const int nodes : arguments.levels) job.levels.push_back("n" + std::to_string(nodes));
+  job.call = call_text(arguments);
+  job.tables = {{"grains", sample_header(arguments.seconds)}};
+  if (describes) job.tables.push_back({"shape", shape_header(arguments.shapes)});
+  job.has_census = true;
+  job.reads_pictures = holds_attributes("mesh." + arguments.format);
+  job.make = [&arguments](GrainAtWork& grain) { return make_grain(arguments, grain); };
+  job.failed = [&arguments, describes](const std::string& grain, const std::string& error,
+                                       double seconds) {
+    std::vector<std::string> records = {
+        failed_row(grain, error, arguments.seconds ? Seconds(seconds) : Seconds())};
+    if (describes) records.push_back(failed_shape_row(grain, error, arguments.shapes));
+    return records;
   };
-  const auto make = [&]() -> GrainRow {
-    const bool holds = holds_attributes(output.levels().front().mesh(grain));
-    GrainScan scan = grains.read(k, holds, execution);
-    RemeshOptions options = arguments.options;
-    options.measures.repaired_scan =
-        describes_scan(arguments.shapes.described) || arguments.shapes.contacts;
-    options.measures.written = [path =
-                                    output.levels().front().mesh(grain)](const RemeshResult& made) {
-      return as_written(made.mesh, path);
-    };
-    const bool carries = holds && !scan.attributes.empty();
-    const IndexedMesh read = carries ? scan.mesh : IndexedMesh();
-    std::vector<RemeshResult> results =
-        remeshes_of(arguments, std::move(scan.mesh), options, execution);
-    std::vector<std::string> records;
-    MeasuredScan measured;
-    for (std::size_t level = 0; level < results.size(); ++level) {
-      RemeshResult& result = results[level];
-      const OutputFolder& folder = output.levels()[level];
-      result.warnings.insert(result.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
-      std::string error;
-      GrainShape shape;
-      if (describes) shape = measure_level(arguments.shapes, result, measured, error, execution);
-      const MeshAttributes attributes =
-          carries ? carried_attributes(read, scan.attributes, result.mesh, execution)
-                  : MeshAttributes();
-      write_mesh(result.mesh, attributes, folder.mesh(grain));
-      records.push_back(sample_row(grain, result, seconds()));
-      if (!describes) continue;
-      records.push_back(error.empty() ? shape_row(grain, folder.mesh_name(grain), result, shape)
-                                      : failed_shape_row(grain, error, arguments.shapes));
-    }
-    return row_of(std::move(records), "");
-  };
-  return row_or_failure(make, [&](const std::string& error) -> GrainRow {
-    std::vector<std::string> records;
-    for (std::size_t level = 0; level < output.levels().size(); ++level) {
-      records.push_back(failed_row(grain, error, seconds()));
-      if (describes) records.push_back(failed_shape_row(grain, error, arguments.shapes));
-    }
-    return row_of(std::move(records), error);
-  });
+  return job;
 }
 
-void write_summaries(const OutputFolder& folder, bool quiet) {
+void write_summaries(const JobFolder& folder, bool quiet) {
   const SampleSummary summary = summarise_table(folder.table());
-  for (const char* ending : {".json", ".html"}) write_summary(folder.summary(ending), summary);
+  for (const char* ending : {".json", ".html"}) {
+    write_summary(folder.file("summary", ending), summary);
+  }
   print(summary_lines(summary), quiet);
 }
 
@@ -248,32 +243,16 @@ int run(const BatchArguments& arguments) {
     check_volume_options(arguments.volume);
   });
   if (!arguments.quiet) check_writable("/dev/stdout");
-  const std::vector<std::string> files = checked([&] { return grain_files(arguments.inputs); });
-  checked([&] {
-    for (const std::string& file : files) {
-      if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
-    }
-  });
-  BatchGrains inputs(files, arguments.volume, arguments.shard, arguments.quiet);
-  BatchOutput output(arguments.folder, arguments.format, arguments.shard, arguments.levels);
-  GrainJob job;
-  job.call = call_text(arguments);
-  job.headers = {sample_header(arguments.seconds)};
-  if (arguments.shapes.described != Described::None) {
-    job.headers.push_back(shape_header(arguments.shapes));
-  }
-  job.writes_labels = true;
-  job.threads = arguments.threads;
-  job.quiet = arguments.quiet;
-  job.work = [&](std::size_t k, const Execution& execution) {
-    return remeshed_row(arguments, output, inputs, k, execution);
-  };
-  const GrainRunEnd end = run_job(job, inputs, output);
-  if (end.was_cancelled) return 128 + noted_signal();
+  const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
+  const std::unique_ptr<GrainSource> inputs =
+      open_inputs(files, arguments.volume, arguments.shard, arguments.quiet);
+  const GrainJob job = batch_job(arguments);
+  const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
   if (arguments.shard.count == 1) {
-    for (const OutputFolder& level : output.levels()) write_summaries(level, arguments.quiet);
+    for (const JobFolder& level : folders_of(job)) write_summaries(level, arguments.quiet);
   }
-  return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
+  return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "batch_inputs.h"
+#include "toolbox/job/grain_files.h"
 #include "toolbox/report/shape_table.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/remesh/remesh_options.h"

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "batch_inputs.h"
+#include "toolbox/job/grain_files.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "clump_command.h"
 
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "command.h"
 #include "exit_code.h"
-#include "grain_job.h"
+#include "grain_inputs.h"
+#include "job_on_terminal.h"
 #include "output_paths.h"
 #include "signals.h"
 #include "toolbox/clump/clump.h"
@@ -22,8 +21,6 @@
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -104,11 +101,7 @@ namespace {
 
 /// Returns whether the inputs are a sample, that is, anything except one mesh file.
 bool is_sample(const std::vector<std::string>& inputs) {
-  std::error_code error;
-  const std::string& first = inputs.front();
-  return inputs.size() > 1 || fs::is_directory(first, error) || first.front() == '@' ||
-         is_volume(first) ||
-         (!fs::exists(first, error) && first.find_first_of("*?[") != std::string::npos);
+  return inputs.size() > 1 || names_files(inputs.front()) || is_volume(inputs.front());
 }
 
 /// Returns the options that must be equal when a sample is started again.
@@ -123,23 +116,29 @@ std::string call_text(const ClumpArguments& arguments) {
                         {"options", json_of(arguments.options)}});
 }
 
-GrainRow clump_row(const ClumpArguments& arguments, const OutputFolder& folder, BatchGrains& grains,
-                   std::size_t k, const Execution& execution) {
-  const std::string& grain = grains.names()[k];
-  const auto make = [&]() -> GrainRow {
-    GrainScan scan = grains.read(k, false, execution);
-    ClumpResult clump = make_clump(std::move(scan.mesh), arguments.options, execution);
-    clump.warnings.insert(clump.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
-    write_clump(folder.mesh(grain), clump, arguments.frame, arguments.density);
-    return {sample_row(grain, clump_csv(clump, {grain, ""}), {}), "", {}};
+/// Returns the job of a sample.
+GrainJob clump_job(const ClumpArguments& arguments) {
+  GrainJob job;
+  job.folder = arguments.outputs.front();
+  job.shard = arguments.shard;
+  job.ending = arguments.format;
+  job.call = call_text(arguments);
+  job.tables = {{"grains", sample_header(clump_csv(ClumpResult()), false)}};
+  job.make = [&arguments](GrainAtWork& grain) -> std::vector<std::string> {
+    ClumpResult clump = make_clump(std::move(grain.scan.mesh), arguments.options, grain.execution);
+    clump.warnings.insert(clump.warnings.begin(), grain.scan.warnings.begin(),
+                          grain.scan.warnings.end());
+    write_clump(grain.folders.front().file_of(grain.name), clump, arguments.frame,
+                arguments.density);
+    return {sample_row(grain.name, clump_csv(clump, {grain.name, ""}), {})};
   };
-  return row_or_failure(make, [&](const std::string& error) -> GrainRow {
-    return {failed_row(grain, error, clump_csv(ClumpResult()), {}), error, {}};
-  });
+  job.failed = [](const std::string& grain, const std::string& error,
+                  double) -> std::vector<std::string> {
+    return {failed_row(grain, error, clump_csv(ClumpResult()), {})};
+  };
+  return job;
 }
 
-/// Works as wscvt batch, with its table and its check of the options, and continues after an
-/// interruption.
 int run_sample(const ClumpArguments& arguments) {
   const bool quiet = arguments.common.quiet;
   const std::vector<std::string> files = checked([&] {
@@ -152,28 +151,16 @@ int run_sample(const ClumpArguments& arguments) {
           "--report.");
     }
     check_clump_path("clump." + arguments.format);
-    std::vector<std::string> found = grain_files(arguments.inputs);
-    for (const std::string& file : found) {
-      if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
-    }
-    return found;
+    return input_files(arguments.inputs);
   });
-  BatchGrains inputs(files, {}, arguments.shard, quiet);
-  BatchOutput output(arguments.outputs.front(), arguments.format, arguments.shard, {});
-  GrainJob job;
-  job.call = call_text(arguments);
-  job.headers = {sample_header(clump_csv(ClumpResult()), false)};
-  job.threads = arguments.common.threads;
-  job.quiet = quiet;
-  job.work = [&](std::size_t k, const Execution& execution) {
-    return clump_row(arguments, output.whole(), inputs, k, execution);
-  };
-  const GrainRunEnd end = run_job(job, inputs, output);
-  if (end.was_cancelled) return 128 + noted_signal();
+  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  const GrainJob job = clump_job(arguments);
+  const JobEnd end = run_job(job, *inputs, arguments.common.threads, quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
   print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
-         " failed: " + output.whole().table()},
+         " failed: " + folders_of(job).front().table()},
         quiet);
-  return end.failed == 0 && !inputs.is_much_left_out() ? Done : SomeFailed;
+  return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 
 }  // namespace

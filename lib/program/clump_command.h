@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "batch_inputs.h"
 #include "common_arguments.h"
 #include "toolbox/clump/clump_options.h"
 #include "toolbox/exchange/simulation_options.h"
+#include "toolbox/job/grain_files.h"
 
 namespace wscvt::program {
 

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
-#include "grain_run.h"
+#include "job_on_terminal.h"
 #include "signals.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
@@ -47,7 +47,7 @@ class LabelRows {
   void note(std::size_t grain, Made made) { made_[grain] = made; }
 
   void take(std::size_t grain, const GrainRow& row) {
-    rows_[grains_.taken()[grain]] = row.record;
+    rows_[grains_.taken()[grain]] = row.records.front();
     const Made made = made_[grain];
     if (made == Made::MeshOfAPiece) ++in_pieces_;
     if (made != Made::Nothing) {
@@ -147,13 +147,11 @@ int run(const ExtractArguments& arguments) {
   for (const std::size_t k : all) remove_partial_file((folder / file_of(k)).string());
   GrainRun run;
   run.count = all.size();
-  run.threads = arguments.threads;
-  run.quiet = arguments.quiet;
   run.when_stopped = "No table was written. The same call starts from the beginning.";
   run.name = [&](std::size_t k) { return grain_name(arguments.volume, label_of(k).label); };
   run.work = [&](std::size_t k, const Execution& execution) {
     const auto row_of = [&](const LabelOutcome& outcome) -> GrainRow {
-      return {label_row(arguments.volume, *grains, label_of(k), outcome), outcome.error};
+      return {{label_row(arguments.volume, *grains, label_of(k), outcome)}, outcome.error};
     };
     return row_or_failure(
         [&] {
@@ -171,13 +169,11 @@ int run(const ExtractArguments& arguments) {
         });
   };
   run.take = [&](std::size_t k, const GrainRow& row) { rows.take(k, row); };
-  const GrainRunEnd end = run_grains(run);
-  if (end.was_cancelled) {
-    return 128 + noted_signal();
-  }
+  const JobEnd end = run_grains(run, arguments.threads, arguments.quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
   write_file(table, rows.table());
   print({rows.summary(end.failed)}, arguments.quiet);
-  return end.failed == 0 && !is_much_left_out(*grains) ? Done : SomeFailed;
+  return end.failed == 0 && !is_much_left_out(grains->left_out()) ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

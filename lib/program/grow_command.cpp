@@ -12,7 +12,7 @@
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
-#include "grain_run.h"
+#include "job_on_terminal.h"
 #include "output_paths.h"
 #include "shape_files.h"
 #include "signals.h"
@@ -148,14 +148,13 @@ GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) 
     donors += (donors.empty() ? "" : ";") + short_name(growing.files[donor]);
   }
   const double cube = grain.radius * grain.radius * grain.radius;
-  return {csv_record(
-              {name_of(arguments, k), file_of(arguments, k), format_exact(2.0 * grain.radius),
-               format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.shape.sphericity),
-               format_exact(shape.form.zingg_elongation), format_exact(shape.form.zingg_flatness),
-               format_exact(shape.convexity), format_exact(100.0 * overhang), donors,
-               short_name(growing.files[nearest.grain]), format_exact(100.0 * nearest.distance),
-               format_exact(100.0 * grain.collage), std::to_string(grain.redraws)}),
-          ""};
+  return {{csv_record(
+      {name_of(arguments, k), file_of(arguments, k), format_exact(2.0 * grain.radius),
+       format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.shape.sphericity),
+       format_exact(shape.form.zingg_elongation), format_exact(shape.form.zingg_flatness),
+       format_exact(shape.convexity), format_exact(100.0 * overhang), donors,
+       short_name(growing.files[nearest.grain]), format_exact(100.0 * nearest.distance),
+       format_exact(100.0 * grain.collage), std::to_string(grain.redraws)})}};
 }
 
 GrownNumbers numbers_of_sample(const Growing& growing, std::vector<double>& overhangs,
@@ -299,13 +298,13 @@ int run(const GrowArguments& arguments) {
   std::string rows = csv_record({std::begin(table_heading), std::end(table_heading)});
   GrainRun all;
   all.count = count;
-  all.threads = arguments.threads;
-  all.quiet = arguments.quiet;
   all.when_stopped = "No table was written. The grains that were made are in the folder.";
   all.name = [&](std::size_t k) { return name_of(arguments, k); };
   all.work = [&](std::size_t k, const Execution& one) { return grown_row(growing, k, one); };
-  all.take = [&](std::size_t, const GrainRow& row) { rows += row.record; };
-  if (run_grains(all).was_cancelled) return 128 + noted_signal();
+  all.take = [&](std::size_t, const GrainRow& row) { rows += row.records.front(); };
+  if (run_grains(all, arguments.threads, arguments.quiet).was_cancelled()) {
+    return 128 + noted_signal();
+  }
   write_file(table, rows);
   if (!arguments.coefficients && arguments.format == "ply") {
     write_file((fs::path(arguments.folder) / "yade_packing.py").string(), yade_packing_script());

@@ -6,8 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "batch_inputs.h"
-#include "grain_run.h"
+#include "job_on_terminal.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
@@ -84,7 +83,7 @@ std::vector<std::string> shape_files(const std::vector<std::string>& inputs) {
       found = files_ending(input, {".dat", ".sh"});
       if (found.empty()) found = files_ending(input, {".json"});
     }
-    if (found.empty()) found = grain_files({input});
+    if (found.empty()) found = grain_files({input}, is_volume);
     files.insert(files.end(), found.begin(), found.end());
   }
   for (const std::string& file : files) {
@@ -97,8 +96,6 @@ std::size_t read_each(const std::vector<std::string>& files, int threads, bool q
                       const std::function<void(std::size_t file, const Execution&)>& read) {
   GrainRun all;
   all.count = files.size();
-  all.threads = threads;
-  all.quiet = quiet;
   all.when_stopped = "Nothing was written.";
   all.name = [&](std::size_t k) { return files[k]; };
   all.work = [&](std::size_t k, const Execution& execution) {
@@ -108,12 +105,11 @@ std::size_t read_each(const std::vector<std::string>& files, int threads, bool q
           return {};
         },
         [](const std::string& sentence) -> GrainRow {
-          return {"", sentence};
+          return {{}, sentence};
         });
   };
-  all.take = [](std::size_t, const GrainRow&) {};
-  const GrainRunEnd end = run_grains(all);
-  if (end.was_cancelled) throw Error(ErrorCode::Cancelled, "Cancelled while reading the sample.");
+  const JobEnd end = run_grains(all, threads, quiet);
+  if (end.was_cancelled()) throw Error(ErrorCode::Cancelled, "Cancelled while reading the sample.");
   return end.failed;
 }
 

@@ -12,7 +12,7 @@
 #include "common_arguments.h"
 #include "described_sample.h"
 #include "exit_code.h"
-#include "grain_run.h"
+#include "job_on_terminal.h"
 #include "output_paths.h"
 #include "signals.h"
 #include "toolbox/clump/clump_fit.h"
@@ -160,8 +160,6 @@ bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sa
   clumps.resize(templates.grains.size());
   GrainRun all;
   all.count = templates.grains.size();
-  all.threads = arguments.threads;
-  all.quiet = arguments.quiet;
   all.when_stopped = "No table was written.";
   all.name = [&](std::size_t k) { return sample.files[templates.grains[k]]; };
   all.work = [&](std::size_t k, const Execution& execution) -> GrainRow {
@@ -177,8 +175,7 @@ bool write_meshes(const TemplatesArguments& arguments, const DescribedSample& sa
     write_file(in_folder(arguments, clumps[k].file), sphere_rows(spheres));
     return {};
   };
-  all.take = [](std::size_t, const GrainRow&) {};
-  return !run_grains(all).was_cancelled;
+  return !run_grains(all, arguments.threads, arguments.quiet).was_cancelled();
 }
 
 void write_tables(const TemplatesArguments& arguments, const DescribedSample& sample,

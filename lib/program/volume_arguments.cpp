@@ -150,9 +150,9 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
                what.c_str(), command.c_str());
 }
 
-bool is_much_left_out(const LabelGrains& grains) {
+bool is_much_left_out(double fraction) {
   constexpr double much = 0.05;
-  return grains.left_out() > much;
+  return fraction > much;
 }
 
 Json json_of(const VolumeOptions& options) {

@@ -26,8 +26,9 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
 /// left out to the standard error. `command` is the call that makes each part a grain.
 void print_notes(const LabelGrains& grains, const std::string& command, bool quiet);
 
-/// Returns whether so much of a volume is left out that the exit code is SomeFailed.
-bool is_much_left_out(const LabelGrains& grains);
+/// Returns whether the fraction of a volume that is left out is so large that the exit code is
+/// SomeFailed.
+bool is_much_left_out(double fraction);
 
 /// Returns every option under the name that users type.
 Json json_of(const VolumeOptions& options);

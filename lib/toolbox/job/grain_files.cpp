@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "batch_inputs.h"
+#include "toolbox/job/grain_files.h"
 
 #include <glob.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
-#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
-namespace wscvt::program {
+namespace wscvt {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-void add_folder(const std::string& folder, std::vector<std::string>& files) {
+using IsVolume = std::function<bool(const std::string& path)>;
+
+void add_folder(const std::string& folder, const IsVolume& is_volume,
+                std::vector<std::string>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().string();
@@ -43,14 +46,15 @@ void add_matches(const std::string& pattern, std::vector<std::string>& files) {
   if (outcome != 0) refuse("No file matches \"" + pattern + "\". Check the pattern.");
 }
 
-void add_input(const std::string& input, std::vector<std::string>& files);
+void add_input(const std::string& input, const IsVolume& is_volume,
+               std::vector<std::string>& files);
 
 [[noreturn]] void refuse_list_in(const std::string& list, const std::string& named) {
   refuse("The list \"" + list + "\" contains the list \"" + named +
          "\". Give this list in the call.");
 }
 
-void add_list(const std::string& list, std::vector<std::string>& files) {
+void add_list(const std::string& list, const IsVolume& is_volume, std::vector<std::string>& files) {
   refuse_device(list);
   std::ifstream lines(list);
   if (!lines.is_open()) {
@@ -65,7 +69,7 @@ void add_list(const std::string& list, std::vector<std::string>& files) {
       refuse("The list \"" + list +
              "\" contains a NUL character, which no file name has. Correct it.");
     }
-    if (!line.empty()) add_input(line, files);
+    if (!line.empty()) add_input(line, is_volume, files);
   }
   if (lines.bad()) refuse_to_read(list);
 }
@@ -77,14 +81,26 @@ bool is_pattern(const std::string& input) {
   return input.find_first_of("*?[") != std::string::npos && !fs::exists(input, ignored);
 }
 
-void add_input(const std::string& input, std::vector<std::string>& files) {
+void add_input(const std::string& input, const IsVolume& is_volume,
+               std::vector<std::string>& files) {
   std::error_code ignored;
-  if (fs::is_directory(input, ignored) && !is_volume(input)) return add_folder(input, files);
+  if (fs::is_directory(input, ignored) && !is_volume(input))
+    return add_folder(input, is_volume, files);
   if (is_pattern(input)) return add_matches(input, files);
   if (!fs::exists(input, ignored) && !is_mesh_file(input) && !is_volume(input)) {
     refuse("There is no file and no folder \"" + input + "\". Check its name.");
   }
   files.push_back(input);
+}
+
+/// Returns the 64-bit FNV-1a hash, which is equal on every machine.
+std::uint64_t stable_hash(std::string_view bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char byte : bytes) {
+    hash ^= static_cast<unsigned char>(byte);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
 }
 
 }  // namespace
@@ -94,13 +110,15 @@ bool names_files(const std::string& input) {
   return is_list(input) || is_pattern(input) || fs::is_directory(input, ignored);
 }
 
-std::vector<std::string> grain_files(const std::vector<std::string>& inputs) {
+std::vector<std::string> grain_files(const std::vector<std::string>& inputs,
+                                     const IsVolume& is_volume) {
+  const IsVolume known = is_volume ? is_volume : [](const std::string&) { return false; };
   std::vector<std::string> files;
   for (const std::string& input : inputs) {
     if (is_list(input)) {
-      add_list(input.substr(1), files);
+      add_list(input.substr(1), known, files);
     } else {
-      add_input(input, files);
+      add_input(input, known, files);
     }
   }
   return files;
@@ -120,19 +138,10 @@ Shard shard_of(std::string_view text) {
   return shard;
 }
 
-std::uint64_t stable_hash(std::string_view bytes) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char byte : bytes) {
-    hash ^= static_cast<unsigned char>(byte);
-    hash *= 1099511628211ULL;
-  }
-  return hash;
-}
-
 bool is_of(const Shard& shard, const std::string& grain) {
   const auto count = static_cast<std::uint64_t>(shard.count);
   return stable_hash(fs::path(grain).filename().string()) % count ==
          static_cast<std::uint64_t>(shard.index - 1);
 }
 
-}  // namespace wscvt::program
+}  // namespace wscvt

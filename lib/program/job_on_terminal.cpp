@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "job_on_terminal.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "progress_line.h"
+#include "signals.h"
+#include "wrong_call.h"
+#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// "2 h 5 min", "3 min 20 s", "7 s".
+std::string duration_text(double seconds) {
+  const auto all = std::llround(seconds);
+  if (all >= 3600)
+    return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
+  if (all >= 60) return std::to_string(all / 60) + " min " + std::to_string(all % 60) + " s";
+  return std::to_string(all) + " s";
+}
+
+/// Returns the text of the line on the terminal.
+std::string progress_text(std::size_t done, std::size_t count, std::size_t failed, double rate) {
+  std::string text = std::to_string(done) + " of " + std::to_string(count) + " grains";
+  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
+  if (rate > 0.0) {
+    text += ", " + format_number(rate, 3) + " per second, " +
+            duration_text(static_cast<double>(count - done) / rate) + " left";
+  }
+  return text;
+}
+
+/// Runs on many grains, with a progress line on a terminal unless quiet. Signals cancel it.
+JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const JobHost&)>& run) {
+  using Clock = std::chrono::steady_clock;
+  note_signals();
+  ProgressLine line(!quiet);
+  const Clock::time_point start = Clock::now();
+  JobHost host;
+  host.threads = threads;
+  host.progress = [&](const JobProgress& now) {
+    const std::chrono::duration<double> seconds = Clock::now() - start;
+    const double rate = static_cast<double>(now.done - now.first) / seconds.count();
+    const double share =
+        now.count == 0 ? 1.0 : static_cast<double>(now.done) / static_cast<double>(now.count);
+    line.show(share, progress_text(now.done, now.count, now.failed, rate));
+    return true;
+  };
+  host.is_cancelled = [] { return noted_signal() != 0; };
+  host.failed = [&](const std::string& grain, const std::string& error) {
+    line.clear();
+    std::fprintf(stderr, "Failed: %s: %s\n", readable(grain, "").c_str(), readable(error).c_str());
+  };
+  JobEnd end = run(host);
+  line.clear();
+  if (end.was_cancelled()) {
+    std::fprintf(stderr, "Cancelled after %zu of %zu grains. %s\n", end.done, end.count,
+                 end.when_stopped.c_str());
+  }
+  return end;
+}
+
+}  // namespace
+
+JobEnd run_grains(const GrainRun& run, int threads, bool quiet) {
+  return on_terminal(threads, quiet,
+                     [&](const JobHost& host) { return wscvt::run_grains(run, host); });
+}
+
+JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet) {
+  return on_terminal(threads, quiet, [&](const JobHost& host) {
+    return checked([&] { return wscvt::run_job(job, grains, host); });
+  });
+}
+
+}  // namespace wscvt::program

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "toolbox/job/grain_job.h"
+
+namespace wscvt::program {
+
+// Work on many grains, with a progress line on a terminal unless quiet. Failures are printed to the
+// standard error, and so is a run that a signal cancelled. `threads`: 0 uses all.
+
+JobEnd run_grains(const GrainRun& run, int threads, bool quiet);
+
+/// Throws WrongCall if files would replace each other, or the folder is of another call.
+JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet);
+
+}  // namespace wscvt::program

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "toolbox/job/grain_files.h"
+#include "toolbox/job/grain_run.h"
+#include "toolbox/job/grain_source.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt {
+
+/// Names of the files of a job in one folder: a file per grain, and tables. The names of the tables
+/// of a part of a sample end in "-I-of-N".
+class JobFolder {
+ public:
+  /// `ending` of the files of grains, without the point.
+  JobFolder(std::filesystem::path folder, const std::string& ending, const Shard& shard);
+
+  std::string path() const { return folder_.string(); }
+  /// Path of the file of a grain.
+  std::string file_of(const std::string& grain) const;
+  /// Name of the file of a grain, without the folder.
+  std::string name_of(const std::string& grain) const;
+  /// Path of a table or a summary: "grains", ".csv".
+  std::string file(const std::string& name, const std::string& ending) const;
+  std::string table() const { return file("grains", ".csv"); }
+
+ private:
+  std::filesystem::path folder_;
+  std::string ending_;
+  std::string part_;
+};
+
+/// A grain of a job, at work.
+struct GrainAtWork {
+  const std::string& name;
+  GrainScan scan;
+  const std::vector<JobFolder>& folders;  ///< one per level
+  const Execution& execution;             ///< of one thread
+  std::chrono::steady_clock::time_point begin;
+
+  /// Returns the time since the grain was begun.
+  double seconds() const;
+};
+
+/// A table with a row per grain, see sample_table.h.
+struct JobTable {
+  std::string name;    ///< of the file, without ending
+  std::string header;  ///< the first record
+};
+
+/// Work on each grain of a source: files for each grain, and tables with a row for each grain. The
+/// bytes of the files do not depend on the number of threads. A job that was interrupted continues
+/// after the last grain of its tables.
+struct GrainJob {
+  std::string folder;
+  Shard shard;         ///< of which the source has the grains
+  std::string ending;  ///< of the files of grains, without the point
+  /// Folders in the folder, such as n100, each with all files and tables. Empty: no such folders.
+  std::vector<std::string> levels;
+  std::string call;              ///< options that must be equal when the job is started again; JSON
+  std::vector<JobTable> tables;  ///< of each level; the first is "grains"
+  bool has_census = false;       ///< writes GrainSource::census to labels.csv
+  bool reads_pictures = false;   ///< see GrainSource::read
+
+  /// Writes the files of a grain and returns its records: of each level, each table. Called on
+  /// several threads at once. What it throws is the failure of the grain, see row_or_failure.
+  std::function<std::vector<std::string>(GrainAtWork& grain)> make;
+  /// Returns the records of a grain that failed after `seconds`, for one level.
+  std::function<std::vector<std::string>(const std::string& grain, const std::string& error,
+                                         double seconds)>
+      failed;
+};
+
+/// Returns the folders of the levels; if there are no levels, the folder of the job.
+std::vector<JobFolder> folders_of(const GrainJob& job);
+
+/// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
+/// replace each other or a scan, or if the folder is of a job with other options or other grains.
+/// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.
+JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host);
+
+}  // namespace wscvt

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/grain_source.h"
+
+#include <algorithm>
+
+#include "wscvt/base/error.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt {
+
+MeshGrains::MeshGrains(std::string path, const Execution& execution) : path_(std::move(path)) {
+  try {
+    MeshFile file = read_mesh_file(path_, execution);
+    bodies_ = split_bodies(std::move(file.mesh), std::move(file.named_faces), execution);
+  } catch (const MachineRefused&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    refused_ = error.sentence();
+  }
+  if (bodies_.list.size() < 2) bodies_ = MeshBodies();
+}
+
+std::string MeshGrains::name(std::size_t grain) const {
+  return is_file() ? path_ : path_ + "/" + std::to_string(grain + 1);
+}
+
+void MeshGrains::want(const std::vector<std::size_t>& grains) {
+  for (std::size_t k = 0; k < bodies_.list.size(); ++k) {
+    if (!std::binary_search(grains.begin(), grains.end(), k)) bodies_.list[k].mesh = {};
+  }
+}
+
+GrainScan MeshGrains::read(std::size_t grain, bool with_pictures, const Execution& execution) {
+  if (!refused_.empty()) throw Error(ErrorCode::InvalidInput, refused_);
+  if (!is_file()) return {bodies_.list[grain].mesh};
+  MeshFile file = read_mesh_file(path_, execution);
+  if (with_pictures) read_pictures(file, path_, execution);
+  return {std::move(file.mesh), std::move(file.attributes), std::move(file.warnings)};
+}
+
+void JoinedGrains::add(std::unique_ptr<GrainSource> source) {
+  for (std::size_t grain = 0; grain < source->size(); ++grain) {
+    if (is_of(shard_, source->name(grain))) places_.push_back({sources_.size(), grain});
+  }
+  sources_.push_back(std::move(source));
+}
+
+std::string JoinedGrains::name(std::size_t grain) const {
+  return sources_[places_[grain].source]->name(places_[grain].grain);
+}
+
+void JoinedGrains::want(const std::vector<std::size_t>& grains) {
+  std::vector<std::vector<std::size_t>> wanted(sources_.size());
+  for (const std::size_t grain : grains) {
+    wanted[places_[grain].source].push_back(places_[grain].grain);
+  }
+  for (std::size_t k = 0; k < sources_.size(); ++k) sources_[k]->want(wanted[k]);
+}
+
+GrainScan JoinedGrains::read(std::size_t grain, bool with_pictures, const Execution& execution) {
+  const Place& place = places_[grain];
+  return sources_[place.source]->read(place.grain, with_pictures, execution);
+}
+
+std::string JoinedGrains::census(const FileOf& file_of) const {
+  std::string joined;
+  for (const auto& source : sources_) {
+    const std::string table = source->census(file_of);
+    // One header for all.
+    joined += joined.empty() || table.empty() ? table : table.substr(table.find("\r\n") + 2);
+  }
+  return joined;
+}
+
+double JoinedGrains::left_out() const {
+  double largest = 0.0;
+  for (const auto& source : sources_) largest = std::max(largest, source->left_out());
+  return largest;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "toolbox/job/grain_files.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/mesh_attributes.h"
+#include "wscvt/base/sentence.h"
+#include "wscvt/repair/bodies.h"
+
+namespace wscvt {
+
+/// Scan of a grain.
+struct GrainScan {
+  IndexedMesh mesh;
+  MeshAttributes attributes = {};          ///< of a file; empty for a body or a label
+  std::vector<std::string> warnings = {};  ///< about reading it
+};
+
+/// Grains in a fixed order, each with a name of its own.
+class GrainSource {
+ public:
+  /// Returns the output file of a grain.
+  using FileOf = std::function<std::string(const std::string& grain)>;
+
+  GrainSource() = default;
+  GrainSource(const GrainSource&) = delete;
+  GrainSource& operator=(const GrainSource&) = delete;
+  virtual ~GrainSource() = default;
+
+  virtual std::size_t size() const = 0;
+  virtual std::string name(std::size_t grain) const = 0;
+
+  /// Declares which grains will be read, ascending. Without this call, all.
+  virtual void want(const std::vector<std::size_t>& grains) { static_cast<void>(grains); }
+
+  /// Reads a grain. Each wanted grain may be read once, on several threads at once.
+  /// `with_pictures`: also reads the pictures of a file's texture. Throws Error if the grain cannot
+  /// be read.
+  virtual GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) = 0;
+
+  /// Returns a table of all that the source contains, grains or not; empty if all are grains.
+  virtual std::string census(const FileOf& file_of) const {
+    return static_cast<void>(file_of), std::string();
+  }
+
+  /// Returns the fraction of the source that belongs to grains but is in none.
+  virtual double left_out() const { return 0.0; }
+};
+
+/// The grains of a mesh file: itself, or its bodies.
+class MeshGrains : public GrainSource {
+ public:
+  /// The file is one grain, with its path as name. If it cannot be read, read() throws.
+  explicit MeshGrains(std::string path) : path_(std::move(path)) {}
+
+  /// Reads the file. Its bodies, if there are several, are grains with the names PATH/1, PATH/2,
+  /// ... and stay in memory. If the file cannot be read or split, read() throws. Throws
+  /// MachineRefused and Error(Cancelled).
+  MeshGrains(std::string path, const Execution& execution);
+
+  std::size_t size() const override { return is_file() ? 1 : bodies_.list.size(); }
+  std::string name(std::size_t grain) const override;
+  void want(const std::vector<std::size_t>& grains) override;
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+
+  /// Several bodies; else an empty list.
+  const MeshBodies& bodies() const { return bodies_; }
+
+ private:
+  bool is_file() const { return bodies_.list.empty(); }
+
+  std::string path_;
+  MeshBodies bodies_;
+  Sentence refused_;  ///< why there are no bodies; empty: they were not asked for, or it is one
+};
+
+/// Sources one after another; of their grains, those of one part of the sample.
+class JoinedGrains : public GrainSource {
+ public:
+  explicit JoinedGrains(const Shard& shard) : shard_(shard) {}
+  void add(std::unique_ptr<GrainSource> source);
+
+  std::size_t size() const override { return places_.size(); }
+  std::string name(std::size_t grain) const override;
+  void want(const std::vector<std::size_t>& grains) override;
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+  std::string census(const FileOf& file_of) const override;
+  double left_out() const override;  ///< the largest of the sources
+
+ private:
+  /// A grain of a source.
+  struct Place {
+    std::size_t source;
+    std::size_t grain;
+  };
+  Shard shard_;
+  std::vector<std::unique_ptr<GrainSource>> sources_;
+  std::vector<Place> places_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "toolbox/job/grain_source.h"
+#include "toolbox/volume/label_grains.h"
+
+namespace wscvt {
+
+/// The grains of a volume of labels, with the names PATH/LABEL. Its census is the table of the
+/// labels (label_table.h).
+class LabelSource : public GrainSource {
+ public:
+  LabelSource(std::string path, std::unique_ptr<LabelGrains> grains)
+      : path_(std::move(path)), grains_(std::move(grains)) {}
+
+  std::size_t size() const override { return grains_->taken().size(); }
+  std::string name(std::size_t grain) const override;
+  void want(const std::vector<std::size_t>& grains) override { grains_->want(grains); }
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+  std::string census(const FileOf& file_of) const override;
+  double left_out() const override { return grains_->left_out(); }
+
+ private:
+  std::string path_;
+  std::unique_ptr<LabelGrains> grains_;
+};
+
+}  // namespace wscvt

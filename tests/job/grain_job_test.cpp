@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/grain_job.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/file_folder.h"
+#include "toolbox/report/sample_table.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+
+namespace wscvt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Grains of one point, whose x is the number of the grain.
+class Points : public GrainSource {
+ public:
+  explicit Points(std::size_t count) : count_(count) {}
+  std::size_t size() const override { return count_; }
+  std::string name(std::size_t grain) const override {
+    return "folder/grain" + std::to_string(grain) + ".ply";
+  }
+  void want(const std::vector<std::size_t>& grains) override { wanted_ = grains; }
+  GrainScan read(std::size_t grain, bool, const Execution&) override {
+    GrainScan scan;
+    scan.mesh.points = {Vector3(static_cast<double>(grain), 0.0, 0.0)};
+    return scan;
+  }
+  std::string census(const FileOf& file_of) const override {
+    return "what,file\r\n" + file_of(name(0)) + "," + file_of(name(1)) + "\r\n";
+  }
+
+  std::vector<std::size_t> wanted_;
+
+ private:
+  std::size_t count_;
+};
+
+class Job : public test::FileFolder {
+ protected:
+  /// A job whose files contain the grain's number, with two tables.
+  GrainJob number_job(const std::string& folder) const {
+    GrainJob job;
+    job.folder = (folder_ / folder).string();
+    job.ending = "txt";
+    job.call = "the options\n";
+    job.tables = {{"grains", sample_header("number\r\n0\r\n", false)},
+                  {"other", "grain,status,twice\r\n"}};
+    job.make = [](GrainAtWork& grain) -> std::vector<std::string> {
+      const int number = static_cast<int>(grain.scan.mesh.points.front().x());
+      // Later grains are done earlier.
+      std::this_thread::sleep_for(std::chrono::microseconds(number % 3 == 0 ? 900 : 10));
+      write_file(grain.folders.front().file_of(grain.name), std::to_string(number));
+      return {sample_row(grain.name, "number\r\n" + std::to_string(number) + "\r\n", {}),
+              grain.name + ",done," + std::to_string(2 * number) + "\r\n"};
+    };
+    job.failed = [](const std::string& grain, const std::string& error,
+                    double) -> std::vector<std::string> {
+      return {failed_row(grain, error, "number\r\n0\r\n", {}), grain + ",failed,\r\n"};
+    };
+    return job;
+  }
+
+  std::string content(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+TEST_F(Job, HasTheSameFilesAtAnyNumberOfThreadsInTheOrderOfTheGrains) {
+  for (const int threads : {1, 2, 7}) {
+    Points grains(100);
+    const std::string out = "out" + std::to_string(threads);
+    const JobEnd end = run_job(number_job(out), grains, {threads});
+    EXPECT_EQ(end.done, 100U);
+    EXPECT_EQ(end.failed, 0U);
+    for (const std::string name : {"/grains.csv", "/other.csv", "/grain57.txt", "/call.json"}) {
+      EXPECT_EQ(content(out + name), content("out1" + name)) << name;
+    }
+  }
+  std::string expected = "grain,status,twice\r\n";
+  for (int k = 0; k < 100; ++k) {
+    expected += "folder/grain" + std::to_string(k) + ".ply,done," + std::to_string(2 * k) + "\r\n";
+  }
+  EXPECT_EQ(content("out1/other.csv"), expected);
+  EXPECT_EQ(content("out1/grain99.txt"), "99");
+}
+
+TEST_F(Job, GoesOnWhereItWasCut) {
+  Points whole(20);
+  GrainJob job = number_job("whole");
+  job.has_census = true;
+  run_job(job, whole, {2});
+  EXPECT_EQ(content("whole/labels.csv"), "what,file\r\ngrain0.txt,grain1.txt\r\n");
+  // Cancelled, then cut within a row of one table.
+  GrainJob begun = number_job("out");
+  std::atomic<int> made{0};
+  begun.make = [&, make = begun.make](GrainAtWork& grain) {
+    ++made;
+    return make(grain);
+  };
+  Points first(20);
+  JobHost host{1};
+  host.is_cancelled = [&] { return made >= 12; };
+  const JobEnd end = run_job(begun, first, host);
+  EXPECT_TRUE(end.was_cancelled());
+  const auto done = static_cast<std::size_t>(end.done);
+  ASSERT_GE(done, 10U);
+  ASSERT_LT(done, 20U);
+  const fs::path table = folder_ / "out/other.csv";
+  fs::resize_file(table, fs::file_size(table) - 5);
+  write_file((folder_ / "out/grain19.txt.part").string(), "half");
+  made = 0;
+  Points second(20);
+  const JobEnd again = run_job(begun, second, {2});
+  EXPECT_FALSE(again.was_cancelled());
+  EXPECT_EQ(static_cast<std::size_t>(made), 20 - done + 1) << "made anew";
+  EXPECT_EQ(second.wanted_.front(), done - 1);
+  EXPECT_EQ(second.wanted_.size(), 20 - done + 1);
+  for (const std::string name : {"/grains.csv", "/other.csv", "/grain13.txt"}) {
+    EXPECT_EQ(content("out" + name), content("whole" + name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out/grain19.txt.part"));
+}
+
+TEST_F(Job, PartsAreTheWhole) {
+  Points grains(40);
+  run_job(number_job("whole"), grains, {2});
+  std::vector<std::string> tables;
+  for (const int index : {1, 2}) {
+    GrainJob job = number_job("out");
+    job.shard = {index, 2};
+    JoinedGrains part(job.shard);
+    part.add(std::make_unique<Points>(40));
+    EXPECT_GT(part.size(), 5U);
+    EXPECT_LT(part.size(), 35U);
+    run_job(job, part, {2});
+    tables.push_back(folders_of(job).front().table());
+    EXPECT_EQ(fs::path(tables.back()).filename(), "grains-" + std::to_string(index) + "-of-2.csv");
+  }
+  const auto joined = [&](const std::vector<std::string>& parts) {
+    join_tables(parts, (folder_ / "all.csv").string());
+    return content("all.csv");
+  };
+  EXPECT_EQ(joined(tables), joined({(folder_ / "whole/grains.csv").string()}));
+  for (int k = 0; k < 40; ++k) {
+    EXPECT_EQ(content("out/grain" + std::to_string(k) + ".txt"), std::to_string(k));
+  }
+}
+
+TEST_F(Job, LevelsHaveTheirFilesAndTables) {
+  GrainJob job = number_job("out");
+  job.levels = {"n20", "n100"};
+  job.make = [](GrainAtWork& grain) {
+    std::vector<std::string> records;
+    for (const JobFolder& folder : grain.folders) {
+      const std::string level = fs::path(folder.path()).filename().string();
+      write_file(folder.file_of(grain.name), level);
+      records.push_back(sample_row(grain.name, "number\r\n" + level + "\r\n", {}));
+      records.push_back(grain.name + ",done," + level + "\r\n");
+    }
+    return records;
+  };
+  Points grains(3);
+  run_job(job, grains, {2});
+  for (const std::string level : {"n20", "n100"}) {
+    EXPECT_EQ(content("out/" + level + "/grain2.txt"), level);
+    const std::string row = "folder/grain2.ply,done," + level + "\r\n";
+    const std::string table = content("out/" + level + "/other.csv");
+    EXPECT_EQ(table.substr(table.size() - row.size()), row);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out/grains.csv"));
+  // The whole folder is one job's.
+  GrainJob other = number_job("out");
+  other.call = "other options";
+  EXPECT_THROW(run_job(other, grains, {1}), Error);
+}
+
+TEST_F(Job, OnlyTheGrainsOwnFailureIsInItsRow) {
+  const std::vector<std::pair<std::string, std::function<void()>>> refusals = {
+      {"disk", [] { throw MachineRefused(Sentence("The disk is full.")); }},
+      {"memory", [] { throw std::bad_alloc(); }}};
+  for (const auto& [name, refusal] : refusals) {
+    GrainJob job = number_job(name);
+    bool refuses = true;
+    job.make = [&, make = job.make](GrainAtWork& grain) {
+      if (grain.name == Points(9).name(3)) {
+        throw Error(ErrorCode::NumericalFailure, "It breaks.");
+      }
+      if (grain.name == Points(9).name(4)) throw std::runtime_error("It breaks too.");
+      if (refuses && grain.name == Points(9).name(6)) refusal();
+      return make(grain);
+    };
+    Points grains(9);
+    std::vector<std::string> failures;
+    JobHost host{1};
+    host.failed = [&](const std::string& grain, const std::string& error) {
+      failures.push_back(grain + ": " + error);
+    };
+    EXPECT_THROW(run_job(job, grains, host), Error);
+    EXPECT_EQ(failures, (std::vector<std::string>{"folder/grain3.ply: It breaks.",
+                                                  "folder/grain4.ply: It breaks too."}));
+    const std::string table = content(name + "/grains.csv");
+    EXPECT_NE(table.find("grain3.ply,failed,It breaks.,\r\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("grain5.ply"), std::string::npos);
+    EXPECT_EQ(table.find("grain6.ply"), std::string::npos) << "a refusal is a row";
+    // The machine is well again: the same call goes on, and counts the failures before.
+    refuses = false;
+    const JobEnd end = run_job(job, grains, {1});
+    EXPECT_EQ(end.done, 9U);
+    EXPECT_EQ(end.failed, 2U);
+    EXPECT_NE(content(name + "/grains.csv").find("grain6.ply,done"), std::string::npos);
+  }
+}
+
+TEST_F(Job, RefusesFilesThatWouldReplaceEachOther) {
+  GrainJob job = number_job("out");
+  JoinedGrains twice({});
+  twice.add(std::make_unique<Points>(2));
+  twice.add(std::make_unique<Points>(1));
+  EXPECT_THROW(run_job(job, twice, {1}), Error);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  // Its own scan.
+  const std::string scan = (folder_ / "scan.ply").string();
+  write_file(scan, "a scan");
+  job = number_job("");
+  job.ending = "ply";
+  MeshGrains grain(scan);
+  EXPECT_THROW(run_job(job, grain, {1}), Error);
+  EXPECT_EQ(content("scan.ply"), "a scan");
+}
+
+}  // namespace
+}  // namespace wscvt
