@@ -221,7 +221,8 @@ void bind_remesh_object(py::module_& module) {
       "vertices (N, 3) float64, length; faces (m, 3) int32, counter-clockwise from outside, m = 2 "
       "N "
       "- 4 without handles; centre (3,), length; radial_distances (N,) from it, length; cell_areas "
-      "(N,), length^2; vertex_distances (N,) to the scan, length, empty unless distances=True; "
+      "(N,), length^2; vertex_distances (N,) from the scan, length, positive outside, empty unless "
+      "distances=True; "
       "warnings, a list of sentences; report, a dictionary like the JSON report. str() returns the "
       "log. Pickles keep arrays, report and log.");
   type.attr("__module__") = "wscvt";

@@ -21,11 +21,13 @@ import threading
 import numpy
 
 from . import _wscvt
-from ._wscvt import Error, Remesh, __version__, options
+from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __version__,
+                     options)
 
-__all__ = ["Error", "Remesh", "batch", "carry_attributes", "clump", "convex", "create", "describe",
-           "distance_grid", "extract", "grow", "options", "read_attributes", "read_mesh", "read_table",
-           "remesh", "sample", "signed_distances", "templates", "write_mesh"]
+__all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
+           "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
+           "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh", "sample",
+           "signed_distances", "templates", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -58,7 +60,8 @@ def remesh(vertices, faces=None, nodes=None, **options):
     All other options have the names and values of options().
 
     Raises Error (code "invalid-input", "not-star-shaped", "numerical-failure", "input-output" or
-    "cancelled"), and TypeError for unknown options.
+    "cancelled"): InputError, a ValueError, for unusable input; FileError, an OSError, for a file;
+    MissingFileError, a FileNotFoundError. Raises TypeError for unknown options.
     """
     # remesh("scan.ply", 500) and remesh(mesh, 500)
     if isinstance(faces, numbers.Integral) and nodes is None:
@@ -263,8 +266,8 @@ def _table_parts(table):
 def _table_file(path):
     files = _wscvt.sample_files(str(path))
     if len(files) > 1:
-        raise Error(f'The folder "{path}" is from a batch with several numbers of nodes. Give the '
-                    f'folder of one number, such as "{pathlib.Path(files[0]).parent}".')
+        raise InputError(f'The folder "{path}" is from a batch with several numbers of nodes. Give '
+                         f'the folder of one number, such as "{pathlib.Path(files[0]).parent}".')
     return files[0]
 
 

@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <system_error>
 
-#include "wscvt/base/error.h"
-
 namespace wscvt {
 
 namespace {
@@ -43,11 +41,13 @@ void refuse_to_open(const std::string& path, int error_number) {
   std::error_code error;
   const fs::path folder = fs::path(path).parent_path();
   if (error_number == ENOENT && !folder.empty() && !fs::exists(folder, error)) {
-    throw MachineRefused(file + "cannot be opened: the folder \"" + folder.string() +
-                         "\" is not there. Check its name and that its disk is mounted.");
+    throw FolderMissing(file + "cannot be opened: the folder \"" + folder.string() +
+                        "\" is not there. Check its name and that its disk is mounted.");
   }
-  throw Error(ErrorCode::InputOutput,
-              file + "cannot be opened. Check that the file exists and is readable.");
+  const std::string sentence =
+      file + "cannot be opened. Check that the file exists and is readable.";
+  if (error_number == ENOENT) throw FileMissing(sentence);
+  throw Error(ErrorCode::InputOutput, sentence);
 }
 
 void refuse_to_read(const std::string& path) {
