@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "node_parameters.h"
 
-#include <cmath>
 #include <string>
 
 #include "wscvt/base/error.h"
@@ -124,10 +123,7 @@ AsPublishedOptions as_published_options(const CheckedValues& values) {
     case AnyPlacement::Default:
       break;
   }
-  // The script editor of MeshLab 2020.09 rounds parameters to two digits: 1.105 becomes 1.11. A
-  // value this close means the default.
-  constexpr double rounding = 0.006;
-  if (std::abs(values.real("EdgeRatio") - OnScanOptions().edge_ratio) > rounding) {
+  if (values.real("EdgeRatio") != OnScanOptions().edge_ratio) {
     refuse_value("EdgeRatio", typed_text(values.real("EdgeRatio")), Method::OnScan);
   }
   return options;
@@ -176,8 +172,10 @@ FilterParameter edge_ratio_parameter() {
 }
 
 FilterParameter colour_by_quality_parameter() {
-  return flag_parameter("ColorByQuality", false, "Color by quality",
-                        "Colors the vertices by quality: red lowest, green, blue highest.");
+  return flag_parameter(
+      "ColorByQuality", false, "Color by quality",
+      "Colors the vertices by quality: red lowest, green, blue highest. The distance "
+      "to the scan: red outside of it, white 0, blue inside.");
 }
 
 RemeshOptions read_node_options(const CheckedValues& values, bool on_surface) {

@@ -26,7 +26,7 @@ inline SampledScan sampled(const IndexedMesh& mesh) {
 }
 
 /// Nodes that are to be fitted to a scan, with samples placed; in the first round, of evenness 1.
-inline FitState fit_state(const IndexedMesh& scan, EditMesh nodes, double ratio = 1.105,
+inline FitState fit_state(const IndexedMesh& scan, EditMesh nodes, double ratio = 1.1,
                           int samples_a_node = 30) {
   const FitDial dial = fit_dial(ratio);
   double area = 0.0;

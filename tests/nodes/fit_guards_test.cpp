@@ -110,7 +110,7 @@ TEST(FitGuards, DriveNothingThroughTheOtherSheet) {
 
 TEST(FitGuards, AreTheSameOnAnyNumberOfThreads) {
   const IndexedMesh body = test::lumpy(4);
-  FitState one = test::fit_state(body, test::clusters(body, 1300), 1.105, 8);
+  FitState one = test::fit_state(body, test::clusters(body, 1300), 1.1, 8);
   FitState three = one;
   std::vector<Vector3> step;
   for (const Vector3& p : one.mesh.points) step.push_back(p.unitOrthogonal());

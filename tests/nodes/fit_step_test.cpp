@@ -26,7 +26,7 @@ double longest(const std::vector<Vector3>& steps) {
 
 TEST(FitStep, LeavesAnEvenMeshThatIsTheScanItself) {
   const IndexedMesh ball = test::icosahedron();
-  FitState state = test::fit_state(ball, test::editable(ball), 1.105, 3000);  // some at each corner
+  FitState state = test::fit_state(ball, test::editable(ball), 1.1, 3000);  // some at each corner
   // Samples in the planes of the faces, with their normals, ask for nothing, nor do even edges.
   for (FitSample& sample : state.samples) {
     sample.normal = state.unit_normal(static_cast<std::size_t>(sample.face));

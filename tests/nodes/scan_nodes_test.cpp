@@ -106,7 +106,7 @@ TEST(ScanNodes, AreEvenAndNearerToTheScanThanNodesThatLieOnIt) {
 TEST(ScanNodes, AreCloserAtALargerEdgeRatioAndKeepTheirAngles) {
   ScanNodesOptions options;
   double last = 1.0;
-  for (const double ratio : {1.105, 1.25, 1.5}) {
+  for (const double ratio : {1.1, 1.25, 1.5}) {
     SCOPED_TRACE(ratio);
     options.edge_ratio = ratio;
     const ScanNodes nodes = place(sand(), 300, options);

@@ -191,7 +191,7 @@ TEST_F(Commands, EachHasAManualPageOfItsHelp) {
   const std::string page = content("pages/wscvt-remesh.1");
   EXPECT_NE(page.find("\\-w,\\-\\-weighting"), std::string::npos);
   EXPECT_NE(page.find(".RS\n.TP\n\\fBwscvt\\-c\\fR\n"), std::string::npos);
-  EXPECT_NE(page.find(" Default: 1.105 (on\\-scan)\n"), std::string::npos);
+  EXPECT_NE(page.find(" Default: 1.1 (on\\-scan)\n"), std::string::npos);
   EXPECT_NE(content("pages/wscvt.1").find("\\fBwscvt\\-remesh\\fR(1)"), std::string::npos);
   EXPECT_EQ(run("--man-pages /proc/none").exit_code, 1);
 }

@@ -203,7 +203,7 @@ TEST(Report, TellsOfTheMethodOnTheScan) {
   report.nodes.self_intersections = 1;
   report.nodes.repaired_intersections = 3;
   report.nodes.mean_edge_ratio = 1.1375;
-  EXPECT_EQ(line_of(result, "Edge ratio"), "mean 1.137 (wanted 1.105)");
+  EXPECT_EQ(line_of(result, "Edge ratio"), "mean 1.137 (wanted 1.1)");
   EXPECT_EQ(line_of(result, "Intersections"), "1 pair of 1280 triangles, 3 removed");
   report.handles.cut = {{0.25, {1, 2, 3}, 3}};
   EXPECT_EQ(line_of(result, "Handles"), "1 handle cut and closed: loop of 0.25 at (1, 2, 3)");

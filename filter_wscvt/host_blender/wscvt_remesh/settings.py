@@ -21,7 +21,7 @@ class GrainSettings(bpy.types.PropertyGroup):
         name="Nodes are", items=grain.PLACEMENTS, default="fitted",
         description="Where the nodes are put")
     edge_ratio: FloatProperty(
-        name="Edge ratio", default=1.105, min=1.08, max=1.6, precision=3, step=1,
+        name="Edge ratio", default=1.1, min=1.08, max=1.6, precision=3, step=1,
         description="Mean of longest / shortest edge of the triangles. Larger values give a smaller "
                     "distance to the scan and less even triangles")
     shrink_wrap: FloatProperty(
@@ -36,7 +36,7 @@ class GrainSettings(bpy.types.PropertyGroup):
     def options(self):
         """The settings as arguments of wscvt.remesh."""
         values = {name: getattr(self, name) for name in NAMES}
-        # Blender stores single precision: 1.105 is 1.10500002.
+        # Blender stores single precision: 1.1 is 1.10000002.
         return {name: round(value, 6) if isinstance(value, float) else value
                 for name, value in values.items()}
 

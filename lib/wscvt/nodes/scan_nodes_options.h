@@ -14,7 +14,7 @@ enum class CellWeighting {
 /// Range and default of the wanted mean edge ratio.
 inline constexpr double least_edge_ratio = 1.08;
 inline constexpr double most_edge_ratio = 1.6;
-inline constexpr double default_edge_ratio = 1.105;
+inline constexpr double default_edge_ratio = 1.1;
 
 /// Options of the nodes on a scan.
 struct ScanNodesOptions {

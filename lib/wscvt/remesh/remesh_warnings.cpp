@@ -173,7 +173,7 @@ Sentence closer_by(const RemeshOptions& options) {
     return "Use more nodes, or " + mention(ScanPlacement::Fitted) + ".";
   }
   // With 40 and 100 nodes on six real grains the rms distance became 0.36 to 0.67 of what it was at
-  // 1.105, 0.5 in the mean; with 1000 nodes on six others 0.53.
+  // 1.105, near the default, 0.5 in the mean; with 1000 nodes on six others 0.53.
   constexpr double closer_edge_ratio = 1.4;
   if (on_scan->edge_ratio >= closer_edge_ratio) return "Use more nodes.";
   return "Use more nodes, or " + mention(edge_ratio_option, closer_edge_ratio) +
