@@ -53,12 +53,17 @@ ParameterValues with_full_names(const ParameterList& parameters, ParameterValues
   return values;
 }
 
-void add_file_line(std::vector<LogLine>& log, const std::string& title, const std::string& file) {
-  if (!file.empty()) log.push_back({title + file});
+void add_file_note(std::vector<std::string>& notes, const std::string& title,
+                   const std::string& file) {
+  if (!file.empty()) notes.push_back(title + file);
 }
 
 LayerContent content_of(const RemeshResult& result, const ResultSettings& settings) {
-  return {result.mesh, quality_values(result, settings.quality), settings.colour_by_quality, {}};
+  return {result.mesh,
+          quality_values(result, settings.quality),
+          settings.colour_by_quality,
+          settings.quality == VertexQuality::OriginalDistance,
+          {}};
 }
 
 /// Adds a warning for each picture of the texture that could not be read.
@@ -216,15 +221,16 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
     }
   }
 
-  FilterOutcome outcome;
-  outcome.log = log_lines(result, stopwatch.seconds());
+  std::vector<std::string> notes;
   if (origin) {
-    outcome.log.push_back(
-        {"'" + current.label + "' is a remesh of '" + scan.label +
-         "'. The scan was remeshed again. To remesh the remesh itself, duplicate its layer."});
+    notes.push_back(
+        "'" + current.label + "' is a remesh of '" + scan.label +
+        "'. The scan was remeshed again. To remesh the remesh itself, duplicate its layer.");
   }
-  add_file_line(outcome.log, "Report in ", settings.result.report_file);
-  add_file_line(outcome.log, "Coefficients in ", settings.coefficients_file);
+  add_file_note(notes, "Report in ", settings.result.report_file);
+  add_file_note(notes, "Coefficients in ", settings.coefficients_file);
+  FilterOutcome outcome;
+  outcome.log = log_lines(result, stopwatch.seconds(), notes);
   outcome.values = values_of(result);
   return outcome;
 }
@@ -248,9 +254,10 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
   layers.add(remesh_label(name, nodes_name(result.options), result.mesh.points.size()),
              content_of(result, settings.result), Eigen::Matrix4d::Identity());
 
+  std::vector<std::string> notes;
+  add_file_note(notes, "Report in ", settings.result.report_file);
   FilterOutcome outcome;
-  outcome.log = log_lines(result, stopwatch.seconds());
-  add_file_line(outcome.log, "Report in ", settings.result.report_file);
+  outcome.log = log_lines(result, stopwatch.seconds(), notes);
   outcome.values = values_of(result);
   return outcome;
 }
@@ -272,7 +279,7 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
 
   FilterOutcome outcome;
   outcome.log = log_lines(result, stopwatch.seconds());
-  add_file_line(outcome.log, "Report in ", settings.report_file);
+  if (!settings.report_file.empty()) outcome.log.push_back({"Report in " + settings.report_file});
   for (const DescriptorValue& row : list_descriptors(result.grain.descriptors)) {
     outcome.values[row.key] = row.value;
   }

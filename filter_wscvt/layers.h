@@ -23,6 +23,7 @@ struct LayerContent {
   IndexedMesh mesh;
   std::vector<double> quality;  ///< one per point; replaces the attributes' quality
   bool coloured = false;        ///< from red (lowest quality) to blue
+  bool is_signed = false;       ///< coloured: from blue (negative) over white (0) to red (positive)
   /// "red", "green", "blue", "alpha" and "quality" of vertices and faces, if present. `coloured`
   /// replaces the vertices' colour.
   MeshAttributes attributes;

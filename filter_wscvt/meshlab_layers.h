@@ -15,6 +15,7 @@
 #include "layers.h"
 #include "mesh_conversion.h"
 #include "wscvt/base/error.h"
+#include "wscvt/report/picture.h"
 
 namespace wscvt::filter {
 
@@ -156,15 +157,34 @@ class MeshlabLayers final : public Layers {
     model.updateDataMask(Model::MM_VERTQUALITY);
     if (content.coloured) {
       model.updateDataMask(Model::MM_VERTCOLOR);
-      // Without a given range, the ramp adds an attribute to the mesh that is never freed.
-      const auto [low, high] = std::minmax_element(content.quality.begin(), content.quality.end());
-      const auto red = static_cast<Scalar>(*low);
-      const auto blue = std::max(static_cast<Scalar>(*high),
-                                 std::nextafter(red, std::numeric_limits<Scalar>::max()));
-      vcg::tri::UpdateColor<Mesh>::PerVertexQualityRamp(model.cm, red, blue);
+      if (content.is_signed) {
+        colour_by_sign(model.cm, content.quality);
+      } else {
+        colour_by_rank(model.cm, content.quality);
+      }
     }
     set_attributes(model, content);
     Api::update_box_and_normals(model);
+  }
+
+  /// From red (lowest) over green to blue.
+  static void colour_by_rank(Mesh& mesh, const std::vector<double>& quality) {
+    // Without a given range, the ramp adds an attribute to the mesh that is never freed.
+    const auto [low, high] = std::minmax_element(quality.begin(), quality.end());
+    const auto red = static_cast<Scalar>(*low);
+    const auto blue = std::max(static_cast<Scalar>(*high),
+                               std::nextafter(red, std::numeric_limits<Scalar>::max()));
+    vcg::tri::UpdateColor<Mesh>::PerVertexQualityRamp(mesh, red, blue);
+  }
+
+  /// From blue (negative) over white (0) to red (positive), as far as the largest absolute value.
+  static void colour_by_sign(Mesh& mesh, const std::vector<double>& quality) {
+    double largest = std::numeric_limits<double>::min();
+    for (const double value : quality) largest = std::max(largest, std::abs(value));
+    for (std::size_t v = 0; v < quality.size(); ++v) {
+      const Colour colour = diverging_colour(quality[v] / largest);  // as on the report's page
+      mesh.vert[v].C() = vcg::Color4b(colour[0], colour[1], colour[2], 255);
+    }
   }
 
   /// Empty if a picture could not be read.

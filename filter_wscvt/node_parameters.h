@@ -29,7 +29,7 @@ enum class VertexQuality {
   RadialDistance,    ///< from the centroid, length
   Curvature,         ///< largest absolute principal curvature, 1/length
   CellArea,          ///< surface area of the node's cell, length^2
-  OriginalDistance,  ///< from the node to the scan, length
+  OriginalDistance,  ///< from the scan to the node, positive outside; length
 };
 
 }  // namespace wscvt::filter
@@ -46,7 +46,7 @@ struct wscvt::EnumerationTable<wscvt::filter::VertexQuality> {
        "the largest absolute principal curvature, 1/unit"},
       {Quality::CellArea, "cell-area", "cell area", "surface area of the node's cell, unit^2"},
       {Quality::OriginalDistance, "scan-distance", "distance to the scan",
-       "from each node to its surface, in units of the mesh"},
+       "from its surface to each node, positive outside, in units of the mesh"},
   };
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "remesh_report.h"
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -60,20 +61,34 @@ std::vector<std::string> short_table(const RemeshResult& result) {
       result.quality.smallest_angle);
   if (result.distances) {
     const double radius = result.input.equivalent_radius;
-    cells.push_back({"  rms distance, % of equivalent radius", "",
-                     format_number(100.0 * result.distances->root_mean_square / radius, 3), ""});
+    const auto add_distance = [&](const std::string& label, double length) {
+      cells.push_back({"  " + label + " distance, % of radius", "",
+                       format_number(100.0 * length / radius, 3), ""});
+    };
+    add_distance("largest", result.distances->largest);
+    add_distance("rms", result.distances->root_mean_square);
+    add_distance("mean", std::max(result.distances->to_reference.mean,
+                                  result.distances->from_reference.mean));
   }
   return log_table(cells);
 }
 
 }  // namespace
 
-std::vector<LogLine> log_lines(const RemeshResult& result, double seconds) {
+std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
+                               const std::vector<std::string>& notes) {
   std::vector<std::string> lines = short_table(result);
   const std::vector<std::string> report = report_lines(result);
   if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
   append_topics(lines, report, {"Node count"});
+  if (!result.vertex_distances.empty()) {
+    const auto [inside, outside] =
+        std::minmax_element(result.vertex_distances.begin(), result.vertex_distances.end());
+    lines.push_back("Nodes are from " + format_number(*inside, 3) + " (inside) to " +
+                    format_number(*outside, 3) + " (outside)");
+  }
   lines.push_back(seconds_line(seconds));
+  lines.insert(lines.end(), notes.begin(), notes.end());
   std::vector<std::string> warnings;
   for (const Sentence& warning : result.warnings) warnings.push_back(shown_words(warning));
   return as_log(warnings, lines, verdict_line(result));

@@ -10,7 +10,8 @@
 namespace wscvt::filter {
 
 /// Returns a run's log, short and narrow enough for a host's panel: changes with one row per
-/// measure, repairs, time, warnings. The report contains everything else.
-std::vector<LogLine> log_lines(const RemeshResult& result, double seconds);
+/// measure, repairs, time, the `notes`, warnings, verdict. The report contains everything else.
+std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
+                               const std::vector<std::string>& notes = {});
 
 }  // namespace wscvt::filter

@@ -33,6 +33,7 @@
 #include "remesh_report.h"
 #include "sample_meshes.h"
 #include "shown_words.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
 #include "wscvt/surface/self_intersections.h"
 
@@ -342,6 +343,11 @@ QString listed_parameters(const QString& menu_text) {
     if (type == input_file_type) type = "InputFile";
     lines << (parameter.name() + " " + type + " " + element.attribute("value")).trimmed();
     EXPECT_FALSE(parameter.fieldDescription().isEmpty()) << parameter.name().toStdString();
+    if (type == "RichFloat") {
+      // The dialog of 2020.09 shows two digits and Apply uses what is shown.
+      const double value = element.attribute("value").toDouble();
+      EXPECT_NEAR(100.0 * value, std::round(100.0 * value), 1e-4) << parameter.name().toStdString();
+    }
     EXPECT_GT(parameter.toolTip().size(), 40) << parameter.name().toStdString();
   }
   return lines.join("\n");
@@ -351,7 +357,7 @@ TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
   const QStringList remesh{"NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",
                            "TargetMeasure RichEnum 4",   "Method RichEnum 0",
                            "Weighting RichEnum 1",       "CurvatureAlpha RichFloat 1",
-                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.105",
+                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.1",
                            "HarmonicDegree RichInt 20",  "FoldLimit RichFloat 5",
                            "MendLimit RichFloat 5",      "Points RichBool false",
                            "NewLayer RichBool true",     "Distances RichBool false",
@@ -365,7 +371,7 @@ TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
                            "CoefficientsFile InputFile", "CoefficientDegree RichInt -1",
                            "NodeCount RichInt 1000",     "Method RichEnum 0",
                            "Weighting RichEnum 1",       "CurvatureAlpha RichFloat 1",
-                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.105",
+                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.1",
                            "Quality RichEnum 0",         "ColorByQuality RichBool false",
                            "ReportFile OutputFile"};
   EXPECT_EQ(listed_parameters(creation_menu_text).toStdString(), create.join("\n").toStdString());
@@ -621,6 +627,44 @@ TEST(Filter, ColorsFromRedToBlueWhenAsked) {
   EXPECT_TRUE(lowest->cC() == vcg::Color4b(vcg::Color4b::Red));
   EXPECT_TRUE(highest->cC() == vcg::Color4b(vcg::Color4b::Blue));
   EXPECT_TRUE(result.cm.mesh_attr.empty()) << "an attribute that only the coloring needed";
+}
+
+TEST(Filter, DistancesAreColoredBySideAndNamedInTheLog) {
+  LoadedFilter loaded;
+  MeshDocument document;
+  add_layer(document, grain());
+  RichParameterList parameters = loaded.parameters(document);
+  parameters.setValue("NodeCount", IntValue(200));
+  parameters.setValue("Quality", EnumValue(3));
+  parameters.setValue("ColorByQuality", BoolValue(true));
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  const CMeshO& mesh = document.mm()->cm;
+  Scalarm inside = 0;
+  Scalarm outside = 0;
+  for (const auto& vertex : mesh.vert) {
+    inside = std::min(inside, vertex.cQ());
+    outside = std::max(outside, vertex.cQ());
+    const int red = vertex.cC()[0];
+    const int blue = vertex.cC()[2];
+    // One step of a channel is a hundredth of the range.
+    if (std::abs(red - blue) > 1) {
+      EXPECT_EQ(red > blue, vertex.cQ() > 0) << vertex.cQ();
+    }
+  }
+  ASSERT_LT(inside, 0);
+  ASSERT_GT(outside, 0);
+  const Scalarm largest = std::max(-inside, outside);
+  for (const auto& vertex : mesh.vert) {
+    if (std::abs(vertex.cQ()) < largest) continue;
+    EXPECT_GT(std::abs(vertex.cC()[0] - vertex.cC()[2]), 120);  // the full colour
+  }
+  const std::string log = loaded.log().join("\n").toStdString();
+  for (const double end : {static_cast<double>(inside), static_cast<double>(outside)}) {
+    EXPECT_NE(log.find(format_number(end, 3)), std::string::npos) << log;
+  }
+  for (const char* name : {"largest distance", "rms distance", "mean distance"}) {
+    EXPECT_NE(log.find(name), std::string::npos) << log;
+  }
 }
 
 TEST(Filter, KeepsTheScansColorsAndQualityUnlessToldOtherwise) {
@@ -1141,6 +1185,8 @@ TEST(Filter, RemeshesTheScanAgainWhenTheResultIsCurrent) {
   EXPECT_FALSE(is_shown(scan));
   const std::string log = loaded.log().join("\n").toStdString();
   EXPECT_NE(log.find("'scan WSCVT-C 200' is a remesh of 'scan.ply'"), std::string::npos) << log;
+  // MeshLab scrolls to the end, so the note is before the verdict.
+  EXPECT_NE(loaded.log().back().indexOf("120 nodes"), -1) << log;
 
   // In place, the earlier remesh is what is replaced.
   parameters.setValue("NodeCount", IntValue(90));

@@ -858,10 +858,18 @@ TEST(RemeshDistances, AreThereOnDemandOnly) {
   EXPECT_ERROR(error_percent(without, ErrorMeasure::Distance), InvalidInput);
   const RemeshResult with = remesh(sand(), fitted_options(100), Execution(1));
   ASSERT_EQ(with.vertex_distances.size(), 100U);
-  const double largest =
-      *std::max_element(with.vertex_distances.begin(), with.vertex_distances.end());
-  EXPECT_GT(largest, 0.0);
-  EXPECT_LE(largest, with.distances->to_reference.maximum * (1.0 + 1e-12));
+  // Fitted nodes are on both sides of the scan, so that the volume is exact.
+  const auto [inside, outside] =
+      std::minmax_element(with.vertex_distances.begin(), with.vertex_distances.end());
+  EXPECT_LT(*inside, 0.0);
+  EXPECT_GT(*outside, 0.0);
+  EXPECT_LE(std::max(-*inside, *outside), with.distances->to_reference.maximum * (1.0 + 1e-12));
+  const MeshDistance scan(sand());
+  for (std::size_t v = 0; v < 100; ++v) {
+    const Vector3& point = with.mesh.points[v];
+    EXPECT_NEAR(std::abs(with.vertex_distances[v]), scan.distance(point), 1e-9);
+    EXPECT_EQ(with.vertex_distances[v] < 0.0, scan.contains(point)) << v;
+  }
 }
 
 TEST(RemeshErrorTarget, FindsTheSmallestCountThatMeetsIt) {

@@ -65,6 +65,17 @@ std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
   return boxes_->distances(points, execution);
 }
 
+std::vector<double> MeshDistance::signed_distances(const std::vector<Vector3>& points,
+                                                   const Execution& execution) const {
+  std::vector<double> values = distances(points, execution);
+  execution.parallel_for(points.size(), distance_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (contains(points[i])) values[i] = -values[i];
+    }
+  });
+  return values;
+}
+
 void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities) {
   if (densities.empty() || densities.size() == mesh.points.size()) return;
   throw Error(ErrorCode::InvalidInput,

@@ -43,6 +43,10 @@ class MeshDistance {
   std::vector<double> distances(const std::vector<Vector3>& points,
                                 const Execution& execution) const;
 
+  /// As `distances`, with the sign of the side: positive outside of the mesh, which must be closed.
+  std::vector<double> signed_distances(const std::vector<Vector3>& points,
+                                       const Execution& execution) const;
+
  private:
   std::unique_ptr<FaceBoxes> boxes_;
 };

@@ -46,8 +46,9 @@ struct RemeshResult {
   /// published its power cell, projected to the surface. On the scan the sum is the remesh's area.
   /// Node tables have the area that a node stands for, a third of its triangles (vertex_areas).
   std::vector<double> cell_areas;
-  std::vector<double> vertex_distances;  ///< from each node to the scan, length; if asked for
-  Vector3 centre = Vector3::Zero();      ///< of a scan its volume centroid; of a formula the origin
+  /// Signed distance from the scan to each node, positive outside of it, length; if asked for.
+  std::vector<double> vertex_distances;
+  Vector3 centre = Vector3::Zero();  ///< of a scan its volume centroid; of a formula the origin
   /// The scan as it was remeshed: repaired, with its handles, with a surface if it was points, and
   /// shrink-wrapped if asked for. Only if asked for, and not of a surface from a formula.
   IndexedMesh repaired_scan;
