@@ -60,9 +60,8 @@ if command -v meshlabserver > /dev/null; then
 else
   build/release/lib/wscvt "$mesh" "$made" -n 1000
   pictures=${output%.*}
-  library=$(dirname "$(readlink -f "$stage"/lib/*/meshlab/libmeshlab-common.so)")
-  LD_LIBRARY_PATH=$library xvfb-run -a -s "-screen 0 1280x1000x24" filter_wscvt/show_filter.sh \
-    "$stage/bin/meshlab" "$mesh" "$work/filter.png" "$work/result.png"
+  xvfb-run -a -s "-screen 0 1280x1000x24" filter_wscvt/show_filter.sh \
+    filter_wscvt/open_meshlab.sh "$mesh" "$work/filter.png" "$work/result.png"
   mv -T "$work/filter.png" "$pictures-filter.png"
   mv -T "$work/result.png" "$pictures-result.png"
   echo "The filter's dialog and its result are in $pictures-filter.png and $pictures-result.png."
@@ -71,4 +70,4 @@ mv -T "$made" "$output"
 echo "The mesh is in $output."
 step "Building the program and the Python module"
 build wscvt_program wscvt_python
-echo "The program is build/release/lib/wscvt."
+echo "The program is build/release/lib/wscvt. filter_wscvt/open_meshlab.sh opens MeshLab with the plugin."
