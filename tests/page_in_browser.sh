@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Shows a report's page in headless Chromium: on a telephone (400 pixels wide), in a wide window
-# (1400) and printed. Fails if the page is wider than a window, a picture does not load or a printed
-# page ends with a heading.
+# (1400) and printed. Fails if the page is wider than a window, a picture does not load, the pictures do
+# not turn where the browser has WebGL, or a printed page ends with a heading.
 #   tests/page_in_browser.sh PROGRAM FOLDER
 # PROGRAM is wscvt. Leaves the page, the pictures page-400.png and page-1400.png and page.pdf in FOLDER.
 # Needs chromium and poppler-utils; tests/run_all.sh page installs them and runs this.
@@ -17,7 +17,7 @@ browser() {  # width, height, further arguments
   size=$1,$2
   shift 2
   # Without a sandbox, which root cannot have; the page is our own.
-  HOME=$home timeout 120 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage \
+  HOME=$home timeout 120 chromium --headless --no-sandbox --disable-dev-shm-usage \
     --hide-scrollbars --user-data-dir="$home/profile" --window-size="$size" "$@" 2> "$home/log" || {
     cat "$home/log" >&2
     exit 1
@@ -55,6 +55,15 @@ END
   browser "$width" "$high" --allow-file-access-from-files \
     --screenshot="$folder/page-$width.png" "file://$home/frame.html"
 done
+# With WebGL each picture becomes a view that turns; without, all stay as they are.
+turning() { browser 1400 1000 "$@" --virtual-time-budget=8000 --dump-dom "file://$folder/page.html" | grep -c "<canvas" || true; }
+with=$(turning --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader)
+without=$(turning --disable-gpu --disable-3d-apis)
+echo "Pictures that turn: $with with WebGL, $without without."
+[ "$with" -gt 0 ] && [ "$without" -eq 0 ] || {
+  echo "The views are not as they should be." >&2
+  exit 1
+}
 browser 1400 1000 --no-pdf-header-footer --print-to-pdf="$folder/page.pdf" "file://$folder/page.html"
 # On paper no heading ends a page.
 sed -n 's/^<h2>\(.*\)<\/h2>$/\1/p' "$folder/page.html" > "$home/headings"

@@ -54,9 +54,11 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(count_of(page, "<img"), 3U);
   EXPECT_EQ(count_of(page, "<svg"), 5U);  // four histograms and the scale of the colours
   EXPECT_EQ(count_of(page, "</figure>"), 7U);
-  // One file: nothing is fetched, and no two parts have one name.
+  // One file: nothing is fetched, and no two parts have one name: the scale and the views' data.
   EXPECT_EQ(page.find("http"), std::string::npos);
-  EXPECT_EQ(count_of(page, " id="), 1U);
+  EXPECT_EQ(count_of(page, " id="), 2U);
+  EXPECT_EQ(count_of(page, "\"place\":"), 3U);
+  EXPECT_EQ(count_of(page, " data-view="), 3U);
   EXPECT_EQ(page.find(">nan"), std::string::npos);
   EXPECT_EQ(page.find("\"nan"), std::string::npos);
   EXPECT_EQ(page.find(">-0<"), std::string::npos);

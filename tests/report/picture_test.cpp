@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "support/decoded.h"
+
 namespace wscvt {
 namespace {
 
@@ -56,26 +58,6 @@ TEST(Picture, PngReadsBackToItsPixels) {
             (Colour{6, 0, 0}));
 }
 
-/// The bytes that a text in base64 stands for (RFC 4648).
-std::string decoded(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  EXPECT_EQ(text.size() % 4, 0U);
-  std::string bytes;
-  for (std::size_t i = 0; i + 4 <= text.size(); i += 4) {
-    std::uint32_t group = 0;
-    std::size_t held = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t digit = digits.find(text[i + k]);
-      held += digit == std::string::npos ? 0 : 1;
-      group = group << 6U | static_cast<std::uint32_t>(digit == std::string::npos ? 0 : digit);
-    }
-    for (std::size_t k = 0; k + 1 < held; ++k) {
-      bytes += static_cast<char>(group >> (16U - 8U * k) & 255U);
-    }
-  }
-  return bytes;
-}
-
 TEST(Picture, ElementOfAPageHoldsTheFileWhole) {
   // Files that end in groups of one, two and three bytes.
   std::set<std::size_t> remainders;
@@ -89,7 +71,8 @@ TEST(Picture, ElementOfAPageHoldsTheFileWhole) {
     const std::string element = image_element(picture, "a \"b\"");
     const std::string opening = "base64,";
     const std::size_t begin = element.find(opening) + opening.size();
-    EXPECT_EQ(decoded(element.substr(begin, element.find('"', begin) - begin)), png_of(picture));
+    EXPECT_EQ(test::decoded(element.substr(begin, element.find('"', begin) - begin)),
+              png_of(picture));
     EXPECT_NE(element.find("width=\"" + std::to_string(picture.width) + "\" height=\"" +
                            std::to_string(picture.height) + "\""),
               std::string::npos);

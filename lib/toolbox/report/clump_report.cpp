@@ -244,6 +244,7 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   page.add_figures(curves);
   page.add_heading("Log");
   page.add_lines(clump_lines(clump));
+  page.add_html(figures.views);
   return page.text();
 }
 

@@ -90,6 +90,7 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   page.add_lines(parts_lines(result));
   page.add_heading("Mass properties of the grain");
   page.add_rows(mass_rows({{"grain", mass_properties(result.scan)}}));
+  page.add_html(figures.views);
   return page.text();
 }
 

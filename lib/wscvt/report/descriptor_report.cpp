@@ -137,6 +137,7 @@ std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& o
   page.add_rows(mass_rows(masses(measures)));
   page.add_heading("Distributions");
   page.add_figures(figures.distributions);
+  page.add_html(figures.views);
   return page.text();
 }
 

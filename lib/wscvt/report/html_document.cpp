@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/html_document.h"
 
+#include <cstddef>
+#include <cstdint>
+
 #include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
 
@@ -25,12 +28,17 @@ constexpr const char* style =
     "1fr)); gap: 1em; }\n"
     "figure { margin: 0; }\n"
     "figure svg, figure img { width: 100%; height: auto; }\n"
+    ".turns img { display: none; }\n"
+    ".turns canvas { width: 100%; aspect-ratio: 1; cursor: grab; display: block; }\n"
+    "@media screen and (prefers-color-scheme: dark) { body { color: #ddd; background: #1b1b1b; } "
+    "figcaption { color: #aaa; } a { color: #9cf; } svg, img { background: #fff; } }\n"
     "figcaption { font-size: 0.85em; color: #444; }\n"
     ".typed td:first-child { font-family: monospace; white-space: nowrap; }\n"
     ".typed td, .typed th { text-align: left; }\n"
     "@media (max-width: 40em) { th, td { padding: 0.15em 0.3em; } table, pre { font-size: 0.8em; } "
     "}\n"
-    "@media print { body { margin: 0; padding: 0; max-width: none; font-size: 10pt; } h2 { "
+    "@media print { .turns img { display: inline; } .turns canvas { display: none; } body { "
+    "margin: 0; padding: 0; max-width: none; font-size: 10pt; } h2 { "
     "break-after: avoid; } figure, tr, .warning { break-inside: avoid; } "
     ".wide { overflow: visible; "
     "} .figures { grid-template-columns: repeat(2, 1fr); } .figures:has(img) { "
@@ -42,6 +50,21 @@ std::string with_unit(const std::string& label, const std::string& unit) {
 }
 
 }  // namespace
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k > bytes.size() ? '=' : digits[group >> (18U - 6U * k) & 63U];
+    }
+  }
+  return text;
+}
 
 HtmlDocument::HtmlDocument(const std::string& title) : title_(html_escaped(title)) {
   body_ = "<h1>" + title_ + "</h1>\n";

@@ -14,6 +14,9 @@ struct Figure {
   std::string caption;  ///< plain text
 };
 
+/// Returns bytes as base64, for data within a document.
+std::string base64(const std::string& bytes);
+
 /// Content of a table's columns: a name and numbers, or an option and its description.
 enum class RowKind { Numbers, Typed };
 

@@ -11,6 +11,7 @@
 #include "wscvt/report/figures.h"
 #include "wscvt/report/mesh_view.h"
 #include "wscvt/report/picture.h"
+#include "wscvt/report/turning_view.h"
 
 namespace wscvt {
 
@@ -27,20 +28,6 @@ constexpr std::size_t most_faces_with_edges = 30000;
 constexpr int drawn_pixels = 840;
 /// Sample points of the distance histogram: 200 for a bin of 1 %.
 constexpr std::size_t distance_samples = 20000;
-
-/// Distances of points to a closed surface, positive outside of it.
-std::vector<double> signed_distances(const MeshDistance& surface,
-                                     const std::vector<Vector3>& points,
-                                     const Execution& execution) {
-  std::vector<double> distances = surface.distances(points, execution);
-  constexpr std::size_t block_size = 256;
-  execution.parallel_for(points.size(), block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (surface.contains(points[i])) distances[i] = -distances[i];
-    }
-  });
-  return distances;
-}
 
 /// The distance that 98 of 100 samples stay below. Single spikes would leave no colour for the
 /// rest. Never 0.
@@ -63,9 +50,10 @@ Histogram histogram_of(const std::vector<double>& values, double half_width) {
   return histogram;
 }
 
-Figure picture_figure(const Picture& picture, const std::string& caption,
+/// The k-th picture of a page, which turns.
+Figure picture_figure(const Picture& picture, std::size_t k, const std::string& caption,
                       const std::string& below = "") {
-  return {image_element(halved(picture), caption) + below, caption};
+  return {turning_picture(image_element(halved(picture), caption), k) + below, caption};
 }
 
 void add_triangle_histograms(std::vector<Figure>& figures,
@@ -106,7 +94,7 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   if (reference) {
     execution.report(0.0, page_stage);
     figures.pictures.push_back(picture_figure(
-        draw(reference->mesh, look_at(reference->mesh, view), view, false, {}),
+        draw(reference->mesh, look_at(reference->mesh, view), view, false, {}), 0,
         reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
             std::to_string(reference->mesh.triangles.size()) + " faces"));
   }
@@ -114,27 +102,29 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   const SeenMesh seen = look_at(shown.mesh, view);
   const bool with_edges = shown.mesh.triangles.size() <= most_faces_with_edges;
   figures.pictures.push_back(
-      picture_figure(draw(shown.mesh, seen, view, with_edges, {}),
+      picture_figure(draw(shown.mesh, seen, view, with_edges, {}), figures.pictures.size(),
                      shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
                          std::to_string(shown.mesh.triangles.size()) + " faces"));
   add_triangle_histograms(figures.distributions, reference, shown, execution);
-  if (!reference) return figures;
+  if (!reference) {
+    figures.views = turning_views({{shown.mesh, with_edges, {}, 0.0}}, view);
+    return figures;
+  }
 
   const MeshDistance surface(reference->mesh, execution);
-  const std::vector<double> distances = signed_distances(
-      surface, samples.empty() ? area_uniform_samples(shown.mesh, distance_samples) : samples,
-      execution);
+  const std::vector<double> distances = surface.signed_distances(
+      samples.empty() ? area_uniform_samples(shown.mesh, distance_samples) : samples, execution);
   const double usual = usual_distance(distances);
   const auto colour_of = [&](const std::vector<Vector3>& points) {
     std::vector<Colour> colours;
     colours.reserve(points.size());
-    for (const double d : signed_distances(surface, points, execution)) {
+    for (const double d : surface.signed_distances(points, execution)) {
       colours.push_back(diverging_colour(d / usual));
     }
     return colours;
   };
   figures.pictures.push_back(
-      picture_figure(draw(shown.mesh, seen, view, false, colour_of),
+      picture_figure(draw(shown.mesh, seen, view, false, colour_of), figures.pictures.size(),
                      "Distance of " + shown.name + " to " + reference->name +
                          ": red outside, blue inside, in the mesh's unit of length. 2 % of the "
                          "surface is beyond the ends of the scale.",
@@ -144,6 +134,13 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
                         {{shown.name, shown_colour, histogram_of(distances, 1.5 * usual)}}),
        "How far " + shown.name + " lies outside (positive) and inside of " + reference->name +
            ", by area. Values beyond the ends are counted in the end bins."});
+  const auto distances_at = [&](const std::vector<Vector3>& points) {
+    return surface.signed_distances(points, execution);
+  };
+  figures.views = turning_views({{reference->mesh, false, {}, 0.0},
+                                 {shown.mesh, with_edges, {}, 0.0},
+                                 {shown.mesh, false, distances_at, usual}},
+                                view);
   return figures;
 }
 

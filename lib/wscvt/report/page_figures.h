@@ -24,6 +24,8 @@ struct PageFigures {
   std::vector<Figure> pictures;
   /// Histograms of edge length, edge ratio and angle of both meshes, and of the signed distance.
   std::vector<Figure> distributions;
+  /// HTML for the end of the page, which makes the pictures turn.
+  std::string views;
 };
 
 /// Draws the figures. Scale and histogram of the distances use `samples`, points on the surface of

@@ -8,6 +8,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/readable_text.h"
+#include "wscvt/report/html_document.h"
 
 namespace wscvt {
 
@@ -42,21 +43,6 @@ std::string compressed(const std::string& data) {
   }
   result.resize(size);
   return result;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > bytes.size() ? '=' : digits[group >> (18U - 6U * k) & 63U];
-    }
-  }
-  return text;
 }
 
 }  // namespace

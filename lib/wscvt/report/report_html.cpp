@@ -88,6 +88,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   page.add_rows(options.rows(), RowKind::Typed);
   page.add_heading("Log");
   page.add_lines(report_lines(result));
+  page.add_html(figures.views);
   return page.text();
 }
 

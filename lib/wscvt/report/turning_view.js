@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Puts a view that turns in the place of each picture of a page. Without WebGL the pictures stay.
+function numbersOf(text, kind) {
+  return new kind(Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer);
+}
+
+/// Cuts each face into parts * parts: {positions, corners} with points of their own for each face, row by row
+/// from its first side to its third corner. turning_view.cpp measures distances in the same order.
+function divided({positions, corners}, parts) {
+  const points = [];
+  const faces = [];
+  for (let f = 0; f < corners.length; f += 3) {
+    const first = points.length / 3;
+    for (let i = 0; i <= parts; ++i) {
+      for (let j = 0; j <= parts - i; ++j) {
+        for (let k = 0; k < 3; ++k) {
+          const [a, b, c] = [0, 1, 2].map(n => positions[3 * corners[f + n] + k]);
+          points.push(a + (b - a) * j / parts + (c - a) * i / parts);
+        }
+      }
+    }
+    let row = first;
+    for (let i = 0; i < parts; ++i) {
+      const length = parts - i + 1;
+      for (let j = 0; j < parts - i; ++j) {
+        faces.push(row + j, row + j + 1, row + length + j);
+        if (j + 1 < parts - i) faces.push(row + j + 1, row + length + j + 1, row + length + j);
+      }
+      row += length;
+    }
+  }
+  return {positions: new Float32Array(points), corners: new Uint32Array(faces)};
+}
+
+/// Each side of a face once or twice; a line drawn twice is the same line.
+function sidesOf(corners) {
+  const ends = [];
+  for (let f = 0; f < corners.length; f += 3) {
+    const [a, b, c] = corners.slice(f, f + 3);
+    if (a < b) ends.push(a, b);
+    if (b < c) ends.push(b, c);
+    if (c < a) ends.push(c, a);
+  }
+  return new Uint32Array(ends);
+}
+
+const {turn, views} = JSON.parse(document.getElementById("views").textContent);
+const shared = {turn, zoom: 1, views: []};
+for (const {place, points, faces, parts, distances, edges} of views) {
+  const holder = document.querySelector(`[data-view="${place}"]`);
+  const picture = holder.querySelector("img");
+  const canvas = document.createElement("canvas");
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", picture.alt + " It turns with the arrow keys.");
+  holder.prepend(canvas);
+  const view = new View(canvas, shared, 1);
+  if (!view.gl) {
+    canvas.remove();
+    break;
+  }
+  holder.classList.add("turns");
+  const mesh = {positions: Float32Array.from(numbersOf(points, Int16Array), x => x / 32767),
+                corners: numbersOf(faces, Uint32Array)};
+  if (distances) {
+    view.show({...divided(mesh, parts), limit: 127,
+               distances: Float32Array.from(numbersOf(distances, Int8Array))});
+  } else {
+    view.show({...mesh, edges: edges ? sidesOf(mesh.corners) : null});
+  }
+}
