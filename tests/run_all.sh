@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [windows] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen and OpenMesh.
@@ -138,6 +138,10 @@ for step in "$@"; do
       # After release; as root.
       tests/install_packages.sh slurm-wlm parallel
       tests/slurm.sh build/release/lib/wscvt build/slurm ;;
+    workflow)
+      # After release.
+      tests/install_packages.sh snakemake graphviz python3-numpy
+      tests/workflow.sh build/release/lib/wscvt build/workflow ;;
     windows)
       # After release; as root.
       tests/install_packages.sh debootstrap
