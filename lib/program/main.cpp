@@ -28,6 +28,7 @@
 #include "describe_command.h"
 #include "exit_code.h"
 #include "extract_command.h"
+#include "fragment_command.h"
 #include "grow_command.h"
 #include "man_pages.h"
 #include "remesh_command.h"
@@ -69,13 +70,14 @@ int run(int argc, char** argv) {
   app.set_version_flag("-v,--version", std::string("wscvt ") + wscvt::version());
   app.require_subcommand(1);
   const std::vector<Command> commands = {
-      make_command<program::RemeshArguments>(app),  make_command<program::DescribeArguments>(app),
-      make_command<program::CompareArguments>(app), make_command<program::CreateArguments>(app),
-      make_command<program::SegmentArguments>(app), make_command<program::ExtractArguments>(app),
-      make_command<program::BatchArguments>(app),   make_command<program::CollectArguments>(app),
-      make_command<program::SplitArguments>(app),   make_command<program::SampleArguments>(app),
-      make_command<program::GrowArguments>(app),    make_command<program::TemplatesArguments>(app),
-      make_command<program::ClumpArguments>(app),   make_command<program::ConvexArguments>(app),
+      make_command<program::RemeshArguments>(app),   make_command<program::DescribeArguments>(app),
+      make_command<program::CompareArguments>(app),  make_command<program::CreateArguments>(app),
+      make_command<program::SegmentArguments>(app),  make_command<program::ExtractArguments>(app),
+      make_command<program::BatchArguments>(app),    make_command<program::CollectArguments>(app),
+      make_command<program::SplitArguments>(app),    make_command<program::SampleArguments>(app),
+      make_command<program::GrowArguments>(app),     make_command<program::TemplatesArguments>(app),
+      make_command<program::ClumpArguments>(app),    make_command<program::ConvexArguments>(app),
+      make_command<program::FragmentArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed like the version

@@ -265,6 +265,7 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   }
   write_mesh(read_mesh(path("first.ply")), path("scans/c.ply"));
   std::ofstream(folder_ / "clump.csv") << "x,y,z,r\n0,0,0,1\n0.9,0.3,0.2,0.7\n";
+  std::ofstream(folder_ / "sieve.csv") << "1,0\n2,100\n";
   std::ofstream(folder_ / "supplier.csv") << "grain,feret_min,convexity\na,2,0.9\nb,3,0.8\n";
   for (const std::string& command : commands()) {
     // These take a sample of hundreds of grains: templates_test.cpp and grow_test.cpp run them on

@@ -26,8 +26,8 @@ from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __v
 
 __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
-           "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh", "sample",
-           "signed_distances", "templates", "write_mesh"]
+           "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
+           "sample", "signed_distances", "templates", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -343,6 +343,28 @@ def convex(vertices, faces=None, **options):
     grain, volume, and the grain's mass properties at unit density. Raises Error.
     """
     return _wscvt.convex(*_arrays(vertices, faces), **options)
+
+
+def fragment(vertices, faces=None, fragments=20, *, near=None, **options):
+    """Divides a grain into exactly `fragments` closed fragments that fill it, for breakage.
+
+    vertices, faces: as for remesh.
+    fragments: 1 to 1000; 20 by default.
+    near: points (n, 3) near which fragments are smaller, such as contacts.
+    volumes: relative volumes, one per fragment; about equal by default. Not together with near.
+    seed: the same seed gives the same fragments; 1 by default.
+    threads, progress: as for remesh.
+
+    Returns a list with a pair (vertices, faces) for each fragment, and a dictionary:
+    volume, centroid, surface_area (of the grain's surface) and hull_excess_percent (of the convex
+    hull over the fragment) are arrays with a row per fragment. contacts has a row per wall:
+    fragments (pairs of numbers from 0), area, centre, and normal from the first to the second.
+    moved_pieces and moved_percent (of the volume) say what joined a neighbour because a cell had
+    several pieces. Two neighbours have the same triangles on their wall. Raises Error.
+    """
+    if near is not None:
+        near = numpy.atleast_2d(numpy.asarray(near, dtype=float))
+    return _wscvt.fragment(*_arrays(vertices, faces), fragments, near=near, **options)
 
 
 def read_mesh(path):

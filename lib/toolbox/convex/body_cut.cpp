@@ -2,81 +2,21 @@
 #include "toolbox/convex/body_cut.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
 
+#include "toolbox/convex/face_cut.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
-namespace {
-
-using SolidEdge = CutSolid::Edge;
-
-std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32U) |
-         static_cast<std::uint32_t>(b);
-}
-
-/// Returns twice the area of closed loops, along their normal.
-Vector3 doubled_area(const std::vector<Vector3>& points, const SolidEdge* first,
-                     const SolidEdge* last) {
-  const Vector3& origin = points[(*first)[0]];
-  Vector3 sum = Vector3::Zero();
-  for (const SolidEdge* e = first; e != last; ++e) {
-    sum += (points[(*e)[0]] - origin).cross(points[(*e)[1]] - origin);
-  }
-  return sum;
-}
-
-/// Returns the two coordinates in which a face with this normal has the largest projection.
-std::array<int, 2> plane_axes(const Vector3& normal) {
-  int dropped = 0;
-  normal.cwiseAbs().maxCoeff(&dropped);
-  return {(dropped + 1) % 3, (dropped + 2) % 3};
-}
-
-bool loop_holds(const std::vector<Vector3>& points, const std::vector<SolidEdge>& loop,
-                const Vector3& p, const std::array<int, 2>& axes) {
-  bool inside = false;
-  for (const auto& [i, j] : loop) {
-    const Vector3& a = points[i];
-    const Vector3& b = points[j];
-    if ((a[axes[1]] > p[axes[1]]) == (b[axes[1]] > p[axes[1]])) continue;
-    const double fraction = (p[axes[1]] - a[axes[1]]) / (b[axes[1]] - a[axes[1]]);
-    if (p[axes[0]] < a[axes[0]] + fraction * (b[axes[0]] - a[axes[0]])) inside = !inside;
-  }
-  return inside;
-}
-
-/// Returns closed loops of directed edges, in the order of their first edges.
-std::vector<std::vector<SolidEdge>> loops_of(const std::vector<SolidEdge>& edges) {
-  std::unordered_map<std::int32_t, std::size_t> starting;
-  for (std::size_t e = 0; e < edges.size(); ++e) starting[edges[e][0]] = e;
-  std::vector<char> used(edges.size(), 0);
-  std::vector<std::vector<SolidEdge>> loops;
-  for (std::size_t start = 0; start < edges.size(); ++start) {
-    if (used[start] != 0) continue;
-    loops.emplace_back();
-    for (std::size_t e = start; used[e] == 0; e = starting.at(edges[e][1])) {
-      used[e] = 1;
-      loops.back().push_back(edges[e]);
-    }
-  }
-  return loops;
-}
-
-}  // namespace
-
 /// One side of a plane, with numbers of the old points, then of the crossings.
 struct CutSolid::Side {
   std::vector<Edge> edges;
   std::vector<Face> faces;
-  std::vector<Edge> face;  ///< edges of the current face
-  std::vector<Edge> cap;   ///< edges of the new face in the plane
+  std::vector<Edge> cap;  ///< edges of the new face in the plane
 
   /// Adds a face of one loop, or of an outer loop and holes.
   void add_face(const std::vector<Edge>& of_face, const Vector3& normal, bool is_cap) {
@@ -85,35 +25,10 @@ struct CutSolid::Side {
     faces.push_back({normal, first, edges.size(), is_cap});
   }
 
-  /// Adds a plane's faces from their edges: each outer loop is a face, with the holes in it.
+  /// Adds a plane's faces from their edges.
   void add_caps(const std::vector<Vector3>& points, const std::vector<Edge>& of_caps,
                 const Vector3& normal) {
-    std::vector<std::vector<Edge>> loops = loops_of(of_caps);
-    if (loops.size() == 1) return add_face(of_caps, normal, true);
-    std::vector<double> areas;
-    areas.reserve(loops.size());
-    for (const auto& loop : loops) {
-      areas.push_back(doubled_area(points, loop.data(), loop.data() + loop.size()).dot(normal));
-    }
-    std::vector<std::vector<Edge>> holes(loops.size());
-    for (std::size_t k = 0; k < loops.size(); ++k) {
-      if (!(areas[k] < 0.0)) continue;
-      std::size_t outer = loops.size();
-      for (std::size_t o = 0; o < loops.size(); ++o) {
-        if (!(areas[o] > -areas[k]) || (outer < loops.size() && areas[o] >= areas[outer])) continue;
-        if (loop_holds(points, loops[o], points[loops[k].front()[0]], plane_axes(normal)))
-          outer = o;
-      }
-      // A hole outside all loops is a loop without area, turned by rounding: a normal face.
-      if (outer == loops.size()) continue;
-      holes[outer].insert(holes[outer].end(), loops[k].begin(), loops[k].end());
-      loops[k].clear();
-    }
-    for (std::size_t k = 0; k < loops.size(); ++k) {
-      if (loops[k].empty()) continue;
-      loops[k].insert(loops[k].end(), holes[k].begin(), holes[k].end());
-      add_face(loops[k], normal, true);
-    }
+    for (const FaceEdges& face : faces_of(points, of_caps, normal)) add_face(face, normal, true);
   }
 };
 
@@ -198,62 +113,23 @@ SolidCut CutSolid::cut(const CutPlane& plane, double on_plane) const {
   std::vector<double> heights;
   heights.reserve(points.size());
   for (const Vector3& p : points) heights.push_back(plane.normal.dot(p) - plane.offset);
-  const auto is_above = [&](std::int32_t v) { return heights[v] > on_plane; };
-
-  std::unordered_map<std::uint64_t, std::int32_t> crossings;
-  const auto crossing = [&](std::int32_t a, std::int32_t b) {
-    if (a > b) std::swap(a, b);
-    const auto [found, is_new] =
-        crossings.try_emplace(edge_key(a, b), static_cast<std::int32_t>(points.size()));
-    if (is_new) {
-      const double fraction = std::clamp(heights[a] / (heights[a] - heights[b]), 0.0, 1.0);
-      const Vector3 point = points[a] + fraction * (points[b] - points[a]);
-      points.push_back(point);
-    }
-    return found->second;
-  };
-
+  FaceCutter cutter(points, heights, on_plane);
   Side above;
   Side below;
-  std::vector<std::int32_t> down;  // points at which a face's edges go below
-  std::vector<std::int32_t> up;
+  FaceParts parts;
   for (const Face& face : faces_) {
-    above.face.clear();
-    below.face.clear();
-    down.clear();
-    up.clear();
-    for (std::size_t e = face.first; e < face.last; ++e) {
-      const auto& [a, b] = edges_[e];
-      if (is_above(a) == is_above(b)) {
-        (is_above(a) ? above : below).face.push_back({a, b});
-        continue;
-      }
-      const std::int32_t x = crossing(a, b);
-      (is_above(a) ? above : below).face.push_back({a, x});
-      (is_above(b) ? above : below).face.push_back({x, b});
-      (is_above(a) ? down : up).push_back(x);
+    cutter.divide(edges_.data() + face.first, edges_.data() + face.last,
+                  face.normal.cross(plane.normal), parts);
+    for (std::size_t k = 0; k < parts.down.size(); ++k) {
+      above.cap.push_back({parts.up[k], parts.down[k]});
+      below.cap.push_back({parts.down[k], parts.up[k]});
     }
-    // Along the plane the two kinds of crossings alternate.
-    const Vector3 along = face.normal.cross(plane.normal);
-    const auto order = [&](std::int32_t a, std::int32_t b) {
-      return along.dot(points[a]) < along.dot(points[b]);
-    };
-    if (down.size() > 1) {
-      std::stable_sort(down.begin(), down.end(), order);
-      std::stable_sort(up.begin(), up.end(), order);
-    }
-    for (std::size_t k = 0; k < down.size(); ++k) {
-      above.face.push_back({down[k], up[k]});
-      below.face.push_back({up[k], down[k]});
-      above.cap.push_back({up[k], down[k]});
-      below.cap.push_back({down[k], up[k]});
-    }
-    for (Side* side : {&above, &below}) {
-      if (side->face.empty()) continue;
-      if (face.is_cap && !down.empty()) {
-        side->add_caps(points, side->face, face.normal);
+    for (auto& [side, edges] : {std::pair(&above, &parts.above), std::pair(&below, &parts.below)}) {
+      if (edges->empty()) continue;
+      if (face.is_cap && !parts.down.empty()) {
+        side->add_caps(points, *edges, face.normal);
       } else {
-        side->add_face(side->face, face.normal, face.is_cap);
+        side->add_face(*edges, face.normal, face.is_cap);
       }
     }
   }

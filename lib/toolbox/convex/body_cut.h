@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "toolbox/convex/face_cut.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -23,7 +23,7 @@ struct SolidCut;
 /// coordinates, so rounding moves points but cannot open the solid.
 class CutSolid {
  public:
-  using Edge = std::array<std::int32_t, 2>;
+  using Edge = FaceEdge;
 
   /// Reads a closed outward mesh. Throws Error(InvalidInput) if a triangle has no neighbour.
   explicit CutSolid(const IndexedMesh& mesh);

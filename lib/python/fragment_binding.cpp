@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "bindings.h"
+#include "conversion.h"
+#include "toolbox/fragment/fragments.h"
+#include "work.h"
+
+namespace wscvt::python {
+
+namespace py = pybind11;
+
+namespace {
+
+py::dict report_of(const Fragments& result) {
+  std::vector<double> volumes;
+  std::vector<double> excess;
+  std::vector<double> surfaces;
+  std::vector<Vector3> centroids;
+  for (const Fragment& fragment : result.list) {
+    volumes.push_back(fragment.mass.volume);
+    excess.push_back(fragment.hull_excess_percent);
+    surfaces.push_back(fragment.surface_area);
+    centroids.push_back(fragment.mass.centroid);
+  }
+  py::list pairs;
+  std::vector<double> areas;
+  std::vector<Vector3> centres;
+  std::vector<Vector3> normals;
+  for (const FragmentContact& contact : result.contacts) {
+    pairs.append(py::make_tuple(contact.first, contact.second));
+    areas.push_back(contact.area);
+    centres.push_back(contact.centre);
+    normals.push_back(contact.normal);
+  }
+  py::dict contacts;
+  contacts["fragments"] = pairs;
+  contacts["area"] = array_of(areas);
+  contacts["centre"] = array_of(centres);
+  contacts["normal"] = array_of(normals);
+  py::dict report;
+  report["volume"] = array_of(volumes);
+  report["centroid"] = array_of(centroids);
+  report["surface_area"] = array_of(surfaces);
+  report["hull_excess_percent"] = array_of(excess);
+  report["contacts"] = contacts;
+  report["moved_pieces"] = result.moved_pieces;
+  report["moved_percent"] = result.moved_percent;
+  return report;
+}
+
+py::tuple fragment(const Points& vertices, const py::object& faces, int fragments,
+                   std::uint64_t seed, const std::vector<double>& volumes, const py::object& near,
+                   int threads, const py::object& progress) {
+  FragmentOptions options;
+  options.count = fragments;
+  options.seed = seed;
+  options.volumes = volumes;
+  if (!near.is_none()) options.near = points_of(py::cast<Points>(near));
+  IndexedMesh scan = mesh_of(vertices, faces);
+  const Fragments result = work_on(threads, progress, [&](const Execution& execution) {
+    return fragment_grain(std::move(scan), options, execution);
+  });
+  for (const Sentence& warning : result.warnings) warn(warning);
+  py::list meshes;
+  for (const Fragment& one : result.list) {
+    meshes.append(py::make_tuple(array_of(one.mesh.points), array_of(one.mesh.triangles)));
+  }
+  return py::make_tuple(meshes, report_of(result));
+}
+
+}  // namespace
+
+void bind_fragment(py::module_& module) {
+  const FragmentOptions usual;
+  module.def("fragment", &fragment, py::arg("vertices"), py::arg("faces"),
+             py::arg("fragments") = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
+             py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
+             py::arg("threads") = 0, py::arg("progress") = py::none(),
+             "Divides a grain into exactly `fragments` closed fragments that fill it and have "
+             "common walls. Returns a list with a pair (vertices, faces) for each, and a dictionary "
+             "with their measures and contacts. volumes: relative, one per fragment. near: points "
+             "(n, 3) near which fragments are smaller. Raises Error.");
+}
+
+}  // namespace wscvt::python

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program divides a grain into fragments.
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "program_run.h"
+#include "support/flat_json.h"
+#include "support/test_shapes.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+class FragmentCommand : public test::ProgramRun {
+ protected:
+  void SetUp() override {
+    ProgramRun::SetUp();
+    write_mesh(grain, path("grain.ply"));
+  }
+  double number(const std::vector<std::string>& row, std::size_t column) const {
+    return std::stod(row.at(column));
+  }
+
+  const IndexedMesh grain = test::moved(test::lumpy(3), 2.0, Vector3(10.0, 0.0, -4.0));
+};
+
+TEST_F(FragmentCommand, WritesFragmentsAndTheirTables) {
+  const Outcome outcome = run("fragment grain.ply -k 6 -o deep/out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.output.rfind("Fragments: 6, volumes ", 0), 0U) << outcome.output;
+  const auto rows = test::csv_records(content("deep/out/fragments.csv"));
+  ASSERT_EQ(rows.size(), 7U);
+  double sum = 0.0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k][0], std::to_string(k));
+    const IndexedMesh mesh = read_mesh(path("deep/out/" + rows[k][1]));
+    EXPECT_EQ(test::bad_edges(mesh), 0U);
+    EXPECT_NEAR(volume_of(mesh, Execution(1)) / number(rows[k], 2), 1.0, 1e-9);
+    sum += number(rows[k], 2);
+  }
+  EXPECT_NEAR(sum / volume_of(grain, Execution(1)), 1.0, 1e-11);
+  const auto contacts = test::csv_records(content("deep/out/contacts.csv"));
+  EXPECT_EQ(contacts[0],
+            (std::vector<std::string>{"first", "second", "area", "x", "y", "z", "nx", "ny", "nz"}));
+  double twice = 0.0;
+  double walls = 0.0;
+  for (std::size_t k = 1; k < contacts.size(); ++k) twice += 2.0 * number(contacts[k], 2);
+  for (std::size_t k = 1; k < rows.size(); ++k) walls += number(rows[k], 11);
+  EXPECT_NEAR(twice / walls, 1.0, 1e-12);
+}
+
+TEST_F(FragmentCommand, WritesTheFormatsOfEngines) {
+  EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format urdf --density 2650").exit_code, 0);
+  EXPECT_TRUE(exists("out/fragment_3.urdf"));
+  EXPECT_TRUE(exists("out/fragment_3_1.obj"));
+  EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format xml").exit_code, 0);
+  EXPECT_NE(content("out/fragment_2.xml").find("freejoint"), std::string::npos);
+  EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format shp -n 80").exit_code, 0);
+  const std::string shape = content("out/fragment_1.shp");
+  EXPECT_NE(shape.find("name fragment_1\n"), std::string::npos);
+  EXPECT_NE(shape.find("nv 80\n"), std::string::npos) << "the remesh has the nodes";
+}
+
+TEST_F(FragmentCommand, FollowsASizeCurve) {
+  std::ofstream(path("curve.csv")) << "1,0\n3,100\n";
+  EXPECT_EQ(run("fragment grain.ply -k 12 -o out --sizes curve.csv").exit_code, 0);
+  const auto rows = test::csv_records(content("out/fragments.csv"));
+  ASSERT_EQ(rows.size(), 13U);
+  // Fractions by number run with d^-3 from 1 to 3: (1 - (k + .5) / 12 * 26 / 27)^-1 are volumes.
+  for (std::size_t k = 2; k < rows.size(); ++k) {
+    const auto wanted = [](std::size_t row) {
+      return 1.0 / (1.0 - (static_cast<double>(row) - 0.5) / 12.0 * 26.0 / 27.0);
+    };
+    EXPECT_NEAR(number(rows[k], 2) / number(rows[1], 2) / (wanted(k) / wanted(1)), 1.0, 3e-3);
+  }
+}
+
+TEST_F(FragmentCommand, IsRefusedAndLeavesFilesAsTheyWere) {
+  std::ofstream(path("curve.csv")) << "1,0\n3,90\n";
+  IndexedMesh open = grain;
+  open.triangles.resize(open.triangles.size() / 2);
+  write_mesh(open, path("open.ply"));
+  write_mesh(grain, path("fragment_2.ply"));
+  const std::string before = content("fragment_2.ply");
+  expect_refused("fragment",
+                 {{"grain.ply -k 0 -o out", 2, "from 1 to 1000"},
+                  {"grain.ply -k 1001 -o out", 2, "from 1 to 1000"},
+                  {"grain.ply -k 3", 2, "--output"},
+                  {"grain.ply -k 3 -o out --near 1,2", 2, "is not a point"},
+                  {"grain.ply -k 3 -o out --near 1,2,3x", 2, "is not a point"},
+                  {"grain.ply -k 3 -o out --sizes curve.csv", 2, "at 100 %"},
+                  {"grain.ply -k 3 -o out --format tif", 2, "Rockable"},
+                  {"grain.ply -k 3 -o out --density 0", 2, "ensity"},
+                  {"fragment_2.ply -k 3 -o .", 2, "is the grain itself"},
+                  {"absent.ply -k 3 -o out", 1, "absent.ply"},
+                  {"open.ply -k 3 -o out", 1, ""}},
+                 {"out", "fragment_1.ply", "fragments.csv"});
+  EXPECT_EQ(content("fragment_2.ply"), before);
+  EXPECT_EQ(run("fragment fragment_2.ply -k 3 -o . --overwrite").exit_code, 0);
+  EXPECT_NE(content("fragment_2.ply"), before);
+}
+
+}  // namespace
+}  // namespace wscvt
