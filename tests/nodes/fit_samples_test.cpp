@@ -47,9 +47,9 @@ TEST(FitSamples, LieOnTheScanOneInEachShareOfItsArea) {
     for (std::size_t t = face; t < body.triangles.size() && nearest > 1e-20; ++t) {
       if (reached > static_cast<double>(i + 1) * share) break;
       const auto& [a, b, c] = body.triangles[t];
-      nearest = std::min(
-          nearest, nearest_in_triangle(sample.point, body.points[a], body.points[b], body.points[c])
-                       .squared_distance);
+      nearest = std::min(nearest, MeasuredTriangle(body.points[a], body.points[b], body.points[c])
+                                      .nearest(sample.point)
+                                      .squared_distance);
       reached += area_of_faces(body, t, t + 1);
     }
     ASSERT_LT(nearest, 1e-20) << i;
@@ -95,7 +95,7 @@ TEST(FitSamples, AreSpreadEvenlyOverAFace) {
     for (std::size_t t = 0; t < 4; ++t) {
       const auto& [a, b, c] = body.triangles[t];
       const TrianglePlace place =
-          nearest_in_triangle(sample.point, body.points[a], body.points[b], body.points[c]);
+          MeasuredTriangle(body.points[a], body.points[b], body.points[c]).nearest(sample.point);
       if (place.squared_distance > 1e-20) continue;
       sums[t] += place.weights;
       ++counts[t];

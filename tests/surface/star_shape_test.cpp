@@ -11,7 +11,7 @@ namespace {
 
 StarShape shape_of(const std::vector<Vector3>& vectors) {
   return star_shape([&](const auto& visit) {
-    for (const Vector3& vector : vectors) visit(vector);
+    for (const Vector3& vector : vectors) visit(vector, vector.norm());
   });
 }
 

@@ -24,7 +24,7 @@ TEST(TrianglePlace, IsTheNearestPointAndSaysWhereItLies) {
     const Vector3 b = point();
     const Vector3 c = point();
     const Vector3 p = 2.0 * point();
-    const TrianglePlace place = nearest_in_triangle(p, a, b, c);
+    const TrianglePlace place = MeasuredTriangle(a, b, c).nearest(p);
     const Vector3 other = nearest_weights(a, b, c, p);
     // Both round some sixteen digits of lengths near one, divided by areas down to a thousandth.
     EXPECT_LT((place.weights - other).norm(), 1e-9);

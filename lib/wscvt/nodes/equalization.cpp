@@ -156,7 +156,8 @@ class Evening {
         pushes_(count_),
         shares_(count_),
         parts_(3 * nodes.triangles.size()),
-        normals_(nodes.triangles.size()) {
+        normals_(nodes.triangles.size()),
+        lengths_(nodes.triangles.size()) {
     for (std::size_t i = 0; i < count_; ++i) {
       nodes_.points[i] = put_on_surface(nodes_.points[i], places_[i]);
     }
@@ -218,16 +219,17 @@ class Evening {
       for (std::size_t t = begin; t < end; ++t) {
         const Vector3 normal = nodes_.normal(t);
         normals_[t] = normal;
+        lengths_[t] = normal.norm();
         const auto& [a, b, c] = nodes_.triangles[t];
         if (surface_.density.empty()) {
-          even_cell_parts({&nodes_.points[a], &nodes_.points[b], &nodes_.points[c]}, normal.norm(),
+          even_cell_parts({&nodes_.points[a], &nodes_.points[b], &nodes_.points[c]}, lengths_[t],
                           &parts_[3 * t]);
           continue;
         }
         const std::array<CellPart, 3> parts =
             cell_parts({nodes_.points[a], nodes_.points[b], nodes_.points[c]},
                        {mass_density_[a], mass_density_[b], mass_density_[c]},
-                       normal / (normal.norm() + 1e-300));
+                       normal / (lengths_[t] + 1e-300));
         std::copy(parts.begin(), parts.end(), parts_.begin() + static_cast<std::ptrdiff_t>(3 * t));
       }
     });
@@ -244,18 +246,13 @@ class Evening {
 
   void plan_node(std::size_t i, double mean, double share_of_last) {
     CellPart cell;
-    Vector3 ring = Vector3::Zero();
-    double spokes = 0.0;
     nodes_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
       cell.mass += parts_[h].mass;
       cell.moment += parts_[h].moment;
-      const Vector3 spoke = nodes_.points[i] - nodes_.points[nodes_.target(h)];
-      ring += spoke;
-      spokes += spoke.norm();
     });
     const StarShape shape = star_shape([&](const auto& visit) {
       nodes_.around(static_cast<std::int32_t>(i),
-                    [&](std::int32_t h) { visit(normals_[face_of(h)]); });
+                    [&](std::int32_t h) { visit(normals_[face_of(h)], lengths_[face_of(h)]); });
     });
     const double density = std::sqrt(mass_density_[i]);
     // A cell of the wanted density has the mass mean * density.
@@ -266,9 +263,24 @@ class Evening {
     const double length = step.norm();
     if (length > longest_evening_step * edge) step *= longest_evening_step * edge / length;
     steps_[i] = step;
-    const double height = shape.normal.dot(ring) / (spokes + 1e-300);
-    pushes_[i] = rim_push * edge * shape.rim * smooth_step(height / complete_height) * shape.normal;
+    pushes_[i].setZero();
+    if (shape.rim > 0.0) {
+      const double height = height_above_ring(i, shape.normal) / complete_height;
+      pushes_[i] = rim_push * edge * shape.rim * smooth_step(height) * shape.normal;
+    }
     shares_[i] = 1.0;
+  }
+
+  /// Returns how far a node stands out from its ring, in the lengths of its edges.
+  double height_above_ring(std::size_t i, const Vector3& normal) const {
+    Vector3 ring = Vector3::Zero();
+    double spokes = 0.0;
+    nodes_.around(static_cast<std::int32_t>(i), [&](std::int32_t h) {
+      const Vector3 spoke = nodes_.points[i] - nodes_.points[nodes_.target(h)];
+      ring += spoke;
+      spokes += spoke.norm();
+    });
+    return normal.dot(ring) / (spokes + 1e-300);
   }
 
   /// Whether a face is far from every limit of `spoils`, which most are, judged without roots.
@@ -293,7 +305,7 @@ class Evening {
     Vector3 normal = nodes_.normal(t);
     if (is_fine_by_far(t, normal, outward)) return false;
     normal /= normal.norm() + 1e-300;
-    const Vector3 old_normal = normals_[t] / (normals_[t].norm() + 1e-300);
+    const Vector3 old_normal = normals_[t] / (lengths_[t] + 1e-300);
     const double before = cosine_to(old_normal, outward);
     const double after = cosine_to(normal, outward);
     if (after < least_agreement && after < before - 1e-9) return true;
@@ -357,6 +369,7 @@ class Evening {
   std::vector<double> shares_;
   std::vector<CellPart> parts_;  ///< of half-edge h's origin in its triangle
   std::vector<Vector3> normals_;
+  std::vector<double> lengths_;  ///< of the normals
 };
 
 }  // namespace

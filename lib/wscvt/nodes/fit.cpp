@@ -54,15 +54,14 @@ class SurfaceFit {
   SurfaceFitReport run() {
     for (int round = 0; round < dial_.rounds; ++round) {
       execution_.report(static_cast<double>(round) / dial_.rounds, "Fitting the nodes");
-      state_.place_samples(execution_);
       begin_round(round);
       if (relocates(round)) report_.relocations += relocate_nodes(state_, execution_);
       if (flips(round)) report_.flips += flip_for_fit(state_);
       move_nodes(state_, fit_step(state_, execution_), execution_);
       if (dial_.polishes) polish(1);
+      state_.place_samples(execution_);
       ++report_.rounds;
     }
-    state_.place_samples(execution_);
     mend_below(smallest_angle);
     return report_;
   }

@@ -31,10 +31,8 @@ struct FlipCandidate {
   std::size_t u;
   std::int32_t a, b, c, d;
   Vector3 pa, pb, pc, pd;
-  double sharpness_before_t, sharpness_before_u;
   double sharpness_t, sharpness_u;  ///< of the triangles cad and cdb
   Vector3 normal_t, normal_u;       ///< unit, of the new triangles
-  Vector3 old_normal_t, old_normal_u;
   bool sharp = false;
 };
 
@@ -43,7 +41,12 @@ class FitFlips {
   explicit FitFlips(FitState& state)
       : state_(state),
         mesh_(state.mesh),
-        fine_sharpness_(portable::cos((state.round.least_angle + angle_margin) * pi / 180.0)) {}
+        fine_sharpness_(portable::cos((state.round.least_angle + angle_margin) * pi / 180.0)),
+        sharpness_(mesh_.triangles.size()),
+        normals_(mesh_.triangles.size()),
+        squares_(mesh_.triangles.size()) {
+    for (std::size_t t = 0; t < squares_.size(); ++t) measure(t);
+  }
 
   int run() {
     int flipped = 0;
@@ -64,10 +67,10 @@ class FitFlips {
     FlipCandidate f;
     if (!look_at(h, f)) return false;
     const double cost = cost_of(f);
-    const double before = squares(f.t) + squares(f.u);
+    const double before = squares_[f.t] + squares_[f.u];
     const double worth = error_worth * state_.share();
     const double most = before - (cost + 1e-9 * state_.edge * state_.edge) / worth;
-    if (most <= 0.0 || mesh_.joined(f.c, f.d)) return false;
+    if (most <= 0.0 || mesh_.joined(f.c, f.d) || !look_at_normals(f)) return false;
     if (!deal_samples(f, most) || !keeps_shape(f)) return false;
     const std::vector<std::int32_t> both = {static_cast<std::int32_t>(f.t),
                                             static_cast<std::int32_t>(f.u)};
@@ -79,7 +82,17 @@ class FitFlips {
     return true;
   }
 
-  /// Reads the four nodes and their shapes; false if no flip is possible or angles forbid it.
+  /// Measures a triangle for the flips of its edges.
+  void measure(std::size_t t) {
+    sharpness_[t] = mesh_.sharpness(t);
+    normals_[t] = state_.unit_normal(t);
+    squares_[t] = 0.0;
+    for (const std::int32_t s : state_.of[t]) {
+      squares_[t] += state_.samples[s].place.squared_distance;
+    }
+  }
+
+  /// Reads the four nodes and their angles; false if no flip is possible or angles forbid it.
   bool look_at(std::int32_t h, FlipCandidate& f) const {
     f.h = h;
     f.g = mesh_.opposite[h];
@@ -94,14 +107,14 @@ class FitFlips {
     f.pb = mesh_.points[f.b];
     f.pc = mesh_.points[f.c];
     f.pd = mesh_.points[f.d];
-    f.sharpness_before_t = largest_corner_cosine(f.pc, f.pa, f.pb);
-    f.sharpness_before_u = largest_corner_cosine(f.pd, f.pb, f.pa);
     f.sharpness_t = largest_corner_cosine(f.pc, f.pa, f.pd);
     f.sharpness_u = largest_corner_cosine(f.pc, f.pd, f.pb);
-    if (std::max(f.sharpness_t, f.sharpness_u) >
-        std::max({state_.round.sharpness_limit, f.sharpness_before_t, f.sharpness_before_u})) {
-      return false;
-    }
+    return std::max(f.sharpness_t, f.sharpness_u) <=
+           std::max({state_.round.sharpness_limit, sharpness_[f.t], sharpness_[f.u]});
+  }
+
+  /// Computes the new normals; false if a new triangle has no area.
+  bool look_at_normals(FlipCandidate& f) const {
     f.normal_t = doubled_area_normal(f.pc, f.pa, f.pd);
     f.normal_u = doubled_area_normal(f.pc, f.pd, f.pb);
     const double area_t = f.normal_t.norm();
@@ -109,12 +122,10 @@ class FitFlips {
     if (area_t < 1e-300 || area_u < 1e-300) return false;
     f.normal_t /= area_t;
     f.normal_u /= area_u;
-    f.old_normal_t = state_.unit_normal(f.t);
-    f.old_normal_u = state_.unit_normal(f.u);
-    const Vector3 mean = f.old_normal_t + f.old_normal_u;
+    const Vector3 mean = normals_[f.t] + normals_[f.u];
     const double bend = f.normal_t.dot(f.normal_u);
     f.sharp = f.normal_t.dot(mean) <= 0.0 || f.normal_u.dot(mean) <= 0.0 ||
-              (bend < sharp_new_edge && bend < f.old_normal_t.dot(f.old_normal_u));
+              (bend < sharp_new_edge && bend < normals_[f.t].dot(normals_[f.u]));
     return true;
   }
 
@@ -152,22 +163,18 @@ class FitFlips {
                       (1.0 - state_.round.goal_cosine));
       };
       cost += state_.round.price * (excess(f.sharpness_t) + excess(f.sharpness_u) -
-                                    excess(f.sharpness_before_t) - excess(f.sharpness_before_u));
+                                    excess(sharpness_[f.t]) - excess(sharpness_[f.u]));
     }
     cost += angle_price * state_.spring() * squared_edge *
             (small_angle(f.sharpness_t) + small_angle(f.sharpness_u) -
-             small_angle(f.sharpness_before_t) - small_angle(f.sharpness_before_u));
+             small_angle(sharpness_[f.t]) - small_angle(sharpness_[f.u]));
     return cost;
-  }
-
-  double squares(std::size_t t) const {
-    double sum = 0.0;
-    for (const std::int32_t s : state_.of[t]) sum += state_.samples[s].place.squared_distance;
-    return sum;
   }
 
   /// Assigns the samples to the new triangles; false once their errors reach `most`.
   bool deal_samples(const FlipCandidate& f, double most) {
+    const MeasuredTriangle shape_t(f.pc, f.pa, f.pd);
+    const MeasuredTriangle shape_u(f.pc, f.pd, f.pb);
     double after = 0.0;
     of_t_.clear();
     of_u_.clear();
@@ -176,8 +183,8 @@ class FitFlips {
     for (const std::size_t from : {f.t, f.u}) {
       for (const std::int32_t s : state_.of[from]) {
         const FitSample& sample = state_.samples[s];
-        const double to_t = nearest_in_triangle(sample.point, f.pc, f.pa, f.pd).squared_distance;
-        const double to_u = nearest_in_triangle(sample.point, f.pc, f.pd, f.pb).squared_distance;
+        const double to_t = shape_t.nearest(sample.point).squared_distance;
+        const double to_u = shape_u.nearest(sample.point).squared_distance;
         after += std::min(to_t, to_u);
         if (after >= most) return false;
         if (to_t <= to_u) {
@@ -199,18 +206,18 @@ class FitFlips {
                        normals_u_.dot(f.normal_u) >= face_agreement * normals_u_.norm();
     if (agree) return true;
     if (f.sharp) return false;
-    const auto beyond = [&](std::int32_t h) {
-      return state_.unit_normal(face_of(mesh_.opposite[h]));
+    const auto beyond = [&](std::int32_t h) -> const Vector3& {
+      return normals_[face_of(mesh_.opposite[h])];
     };
-    const Vector3 cb = beyond(next_half_edge(f.h));
-    const Vector3 ca = beyond(previous_half_edge(f.h));
-    const Vector3 ad = beyond(next_half_edge(f.g));
-    const Vector3 db = beyond(previous_half_edge(f.g));
+    const Vector3& cb = beyond(next_half_edge(f.h));
+    const Vector3& ca = beyond(previous_half_edge(f.h));
+    const Vector3& ad = beyond(next_half_edge(f.g));
+    const Vector3& db = beyond(previous_half_edge(f.g));
+    const Vector3& t = normals_[f.t];
+    const Vector3& u = normals_[f.u];
     const double after = std::min({f.normal_t.dot(f.normal_u), f.normal_t.dot(ca),
                                    f.normal_t.dot(ad), f.normal_u.dot(cb), f.normal_u.dot(db)});
-    const double before =
-        std::min({f.old_normal_t.dot(f.old_normal_u), f.old_normal_t.dot(cb),
-                  f.old_normal_t.dot(ca), f.old_normal_u.dot(ad), f.old_normal_u.dot(db)});
+    const double before = std::min({t.dot(u), t.dot(cb), t.dot(ca), u.dot(ad), u.dot(db)});
     return after >= folded || after >= before - 1e-9;
   }
 
@@ -225,13 +232,17 @@ class FitFlips {
         state_.samples[s].face = static_cast<std::int32_t>(t);
         state_.samples[s].place = nearest_in_triangle(state_.samples[s].point, mesh_, t);
       }
+      measure(t);
       state_.hash.enter(mesh_, static_cast<std::int32_t>(t));
     }
   }
 
   FitState& state_;
   EditMesh& mesh_;
-  double fine_sharpness_;  ///< sharper triangles have a price
+  double fine_sharpness_;          ///< sharper triangles have a price
+  std::vector<double> sharpness_;  ///< of each triangle
+  std::vector<Vector3> normals_;   ///< unit
+  std::vector<double> squares_;    ///< sum of its samples' squared distances
   std::vector<std::int32_t> of_t_;
   std::vector<std::int32_t> of_u_;
   Vector3 normals_t_ = Vector3::Zero();

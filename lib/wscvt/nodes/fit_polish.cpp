@@ -172,9 +172,8 @@ void look_for_mending(const FitState& state, std::int32_t v, double limit, Mendi
     for (const std::int32_t s : fan.samples) {
       double nearest = 1e300;
       for (std::size_t j = 0; j < fan.ring.size(); ++j) {
-        nearest = std::min(nearest, nearest_in_triangle(state.samples[s].point, at, fan.ring[j],
-                                                        fan.ring[(j + 1) % fan.ring.size()])
-                                        .squared_distance);
+        const MeasuredTriangle triangle(at, fan.ring[j], fan.ring[(j + 1) % fan.ring.size()]);
+        nearest = std::min(nearest, triangle.nearest(state.samples[s].point).squared_distance);
       }
       cost += nearest;
     }

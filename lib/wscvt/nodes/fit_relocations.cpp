@@ -234,6 +234,8 @@ class Relocations {
     const auto corner = [&](std::size_t j) { return ring.nodes[(i + 1 + j) % count]; };
     double cost = -before;
     std::vector<Vector3> normals(faces);
+    std::vector<MeasuredTriangle> triangles;
+    triangles.reserve(faces);
     for (std::size_t j = 0; j < faces; ++j) {
       const Vector3& x = mesh_.points[corner(j)];
       const Vector3& y = mesh_.points[corner(j + 1)];
@@ -244,6 +246,7 @@ class Relocations {
       const double excess = state_.excess(centre, x, y);
       cost += state_.round.price * excess * excess;
       if (j > 0) cost += spring_ * spring_energy(u, corner(j));
+      triangles.emplace_back(centre, x, y);
     }
     std::vector<Vector3> sums(faces, Vector3::Zero());
     std::vector<int> counts(faces, 0);
@@ -251,10 +254,7 @@ class Relocations {
       double nearest = 1e300;
       std::size_t in = 0;
       for (std::size_t j = 0; j < faces; ++j) {
-        const double squared =
-            nearest_in_triangle(state_.samples[s].point, centre, mesh_.points[corner(j)],
-                                mesh_.points[corner(j + 1)])
-                .squared_distance;
+        const double squared = triangles[j].nearest(state_.samples[s].point).squared_distance;
         if (squared >= nearest) continue;
         nearest = squared;
         in = j;

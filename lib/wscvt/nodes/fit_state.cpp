@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/base/plastic_sequence.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/smooth_step.h"
@@ -194,16 +195,22 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
         for (std::size_t s = begin; s < end; ++s) {
           std::int32_t face = static_cast<std::int32_t>(face_of(mesh.first[near[s]]));
           walk_to_nearest(samples[s].point, mesh, face);
-          samples[s].face = normals[face].dot(samples[s].normal) >= face_agreement
-                                ? face
-                                : first_face(mesh, normals, samples[s], near[s], edge);
+          if (normals[face].dot(samples[s].normal) < face_agreement) {
+            face = first_face(mesh, normals, samples[s], near[s], edge);
+            walk_to_nearest(samples[s].point, mesh, face);
+          }
+          samples[s].face = face;
         }
       });
-  place_samples(execution);
   // Neighbours in space become neighbours in memory.
-  std::stable_sort(samples.begin(), samples.end(),
-                   [](const FitSample& a, const FitSample& b) { return a.face < b.face; });
-  list_samples();
+  const Groups by_face =
+      counting_sort(samples.size(), mesh.triangles.size(),
+                    [&](std::size_t s, const auto& visit) { visit(samples[s].face); });
+  std::vector<FitSample> sorted;
+  sorted.reserve(samples.size());
+  for (const std::int32_t s : by_face.items) sorted.push_back(samples[s]);
+  samples = std::move(sorted);
+  place_samples(execution);
 }
 
 double FitState::weight(double squared_distance) const {
@@ -257,35 +264,48 @@ void FitState::place_samples(const Execution& execution) {
       });
   mean_square = std::max(sum / static_cast<double>(samples.size()), 1e-300);
   list_samples();
-  read_spacing();
 }
 
 void FitState::list_samples() {
   of.resize(mesh.triangles.size());
   for (std::vector<std::int32_t>& list : of) list.clear();
   sample_normals.assign(mesh.triangles.size(), Vector3::Zero());
+  about.assign(mesh.points.size(), Vector3::Zero());
+  std::vector<double> sums(mesh.points.size(), 1e-300);
+  bool even = true;
   for (std::size_t s = 0; s < samples.size(); ++s) {
-    of[samples[s].face].push_back(static_cast<std::int32_t>(s));
-    sample_normals[samples[s].face] += samples[s].normal;
+    const FitSample& sample = samples[s];
+    of[sample.face].push_back(static_cast<std::int32_t>(s));
+    sample_normals[sample.face] += sample.normal;
+    const Triangle& corners = mesh.triangles[sample.face];
+    for (int k = 0; k < 3; ++k) {
+      about[corners[k]] += sample.place.weights[k] * sample.normal;
+      sums[corners[k]] += sample.place.weights[k];
+    }
+    even = even && sample.spacing == 1.0;
   }
-  about = node_normals();
+  for (std::size_t v = 0; v < about.size(); ++v) about[v] /= sums[v];
+  if (!even) read_spacing();
 }
 
 void FitState::deal(const std::vector<std::int32_t>& pool,
                     const std::vector<std::int32_t>& triangles) {
+  std::vector<MeasuredTriangle> shapes;
+  shapes.reserve(triangles.size());
   for (const std::int32_t t : triangles) {
     of[t].clear();
     sample_normals[t].setZero();
+    shapes.push_back(measured_triangle(mesh, t));
   }
   for (const std::int32_t s : pool) {
     FitSample& sample = samples[s];
     double best = 1e300;
-    for (const std::int32_t t : triangles) {
-      const TrianglePlace place = nearest_in_triangle(sample.point, mesh, t);
+    for (std::size_t j = 0; j < shapes.size(); ++j) {
+      const TrianglePlace place = shapes[j].nearest(sample.point);
       if (place.squared_distance >= best) continue;
       best = place.squared_distance;
       sample.place = place;
-      sample.face = t;
+      sample.face = triangles[j];
     }
     of[sample.face].push_back(s);
     sample_normals[sample.face] += sample.normal;
@@ -298,24 +318,7 @@ std::vector<std::int32_t> FitState::pool(const std::vector<std::int32_t>& triang
   return result;
 }
 
-std::vector<Vector3> FitState::node_normals() const {
-  std::vector<Vector3> normals(mesh.points.size(), Vector3::Zero());
-  std::vector<double> sums(mesh.points.size(), 1e-300);
-  for (const FitSample& sample : samples) {
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t v = mesh.triangles[sample.face][k];
-      normals[v] += sample.place.weights[k] * sample.normal;
-      sums[v] += sample.place.weights[k];
-    }
-  }
-  for (std::size_t v = 0; v < normals.size(); ++v) normals[v] /= sums[v];
-  return normals;
-}
-
 void FitState::read_spacing() {
-  const bool even = std::all_of(samples.begin(), samples.end(),
-                                [](const FitSample& sample) { return sample.spacing == 1.0; });
-  if (even) return;
   if (spacing.empty()) spacing.assign(mesh.points.size(), 1.0);
   std::vector<double> sums(mesh.points.size(), 0.0);
   std::vector<double> weights(mesh.points.size(), 0.0);
@@ -387,14 +390,13 @@ struct FanPlace {
 };
 
 /// Searches from the sample's last triangle to both sides as long as they get nearer.
-FanPlace place_in_fan(const FitFan& fan, const Vector3& at, const Vector3& point,
+FanPlace place_in_fan(const std::vector<MeasuredTriangle>& triangles, const Vector3& point,
                       std::int32_t last) {
-  const std::size_t count = fan.ring.size();
+  const std::size_t count = triangles.size();
   FanPlace best;
   best.place.squared_distance = 1e300;
   const auto look = [&](std::size_t j) {
-    const TrianglePlace place =
-        nearest_in_triangle(point, at, fan.ring[j], fan.ring[j + 1 == count ? 0 : j + 1]);
+    const TrianglePlace place = triangles[j].nearest(point);
     if (place.squared_distance >= best.place.squared_distance) return false;
     best = {j, place};
     return true;
@@ -414,8 +416,20 @@ FanPlace place_in_fan(const FitFan& fan, const Vector3& at, const Vector3& point
   return best;
 }
 
-FanPlace remembered_place(const FitState& state, FitFan& fan, const Vector3& at, std::size_t i) {
-  const FanPlace place = place_in_fan(fan, at, state.samples[fan.samples[i]].point, fan.places[i]);
+std::vector<MeasuredTriangle> triangles_of(const FitFan& fan, const Vector3& at) {
+  const std::size_t count = fan.ring.size();
+  std::vector<MeasuredTriangle> triangles;
+  triangles.reserve(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    triangles.emplace_back(at, fan.ring[j], fan.ring[j + 1 == count ? 0 : j + 1]);
+  }
+  return triangles;
+}
+
+FanPlace remembered_place(const FitState& state, FitFan& fan,
+                          const std::vector<MeasuredTriangle>& triangles, std::size_t i) {
+  const FanPlace place =
+      place_in_fan(triangles, state.samples[fan.samples[i]].point, fan.places[i]);
   fan.places[i] = static_cast<std::int32_t>(place.triangle);
   return place;
 }
@@ -497,6 +511,7 @@ Vector3 FanEquations::step(double most) const {
 
 double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEquations* equations) {
   const std::size_t count = fan.ring.size();
+  const std::vector<MeasuredTriangle> triangles = triangles_of(fan, at);
   std::vector<Vector3> normals;
   if (equations != nullptr) {
     normals.resize(count);
@@ -506,7 +521,7 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEqua
   }
   double energy = 0.0;
   for (std::size_t i = 0; i < fan.samples.size(); ++i) {
-    const FanPlace in = remembered_place(state, fan, at, i);
+    const FanPlace in = remembered_place(state, fan, triangles, i);
     energy += state.share() * state.error(in.place.squared_distance);
     if (equations != nullptr) {
       add_sample(state, fan, at, state.samples[fan.samples[i]], in, normals[in.triangle],
@@ -522,11 +537,12 @@ bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
                  const std::vector<Vector3>& about) {
   constexpr int enough = 3;
   const std::size_t count = fan.ring.size();
+  const std::vector<MeasuredTriangle> triangles = triangles_of(fan, at);
   std::vector<Vector3> sums(count, Vector3::Zero());
   std::vector<int> counts(count, 0);
   double nearest = 1e300;
   for (std::size_t i = 0; i < fan.samples.size(); ++i) {
-    const FanPlace in = remembered_place(state, fan, at, i);
+    const FanPlace in = remembered_place(state, fan, triangles, i);
     const FitSample& sample = state.samples[fan.samples[i]];
     sums[in.triangle] += sample.normal;
     ++counts[in.triangle];

@@ -96,9 +96,11 @@ struct FitState {
   std::vector<Vector3> sample_normals;        ///< sum of their normals
   std::vector<double> spacing;                ///< wanted at each node; empty: 1
   std::vector<double> ring_edges;             ///< mean edge about each node, at the last step
-  std::vector<Vector3> about;                 ///< node_normals at the last list_samples
-  double edge = 0.0;                          ///< mean edge
-  double mean_square = 0.0;                   ///< of the samples' distances
+  /// Mean normal of the samples about each node at the last list_samples, weighted by nearness;
+  /// zero without samples.
+  std::vector<Vector3> about;
+  double edge = 0.0;         ///< mean edge
+  double mean_square = 0.0;  ///< of the samples' distances
   TriangleHash hash;
   bool had_pairs = false;  ///< whether any triangles intersected at the last look
 
@@ -132,19 +134,15 @@ struct FitState {
                 std::array<Vector3, 3>* gradient = nullptr) const;
   double excess(std::size_t t) const;
 
-  /// Walks every sample to the nearest triangle, and updates the mean square, the lists and the
-  /// spacing.
+  /// Walks every sample to the nearest triangle, and updates the mean square and the lists.
   void place_samples(const Execution& execution);
-  /// Rebuilds `of`, `sample_normals` and `about`.
+  /// Rebuilds `of`, `sample_normals` and `about`, and `spacing` if any sample has another than 1.
   void list_samples();
   /// Assigns samples to the nearest of some triangles; they must not lie in others.
   void deal(const std::vector<std::int32_t>& pool, const std::vector<std::int32_t>& triangles);
   /// Returns the samples of some triangles.
   std::vector<std::int32_t> pool(const std::vector<std::int32_t>& triangles) const;
-  /// Returns the mean normal of the samples about each node, weighted by nearness; zero without
-  /// samples.
-  std::vector<Vector3> node_normals() const;
-  /// Computes `spacing` from the samples if any sample has another spacing than 1.
+  /// Computes `spacing` from the samples.
   void read_spacing();
   /// Rebuilds the hash from the current triangles.
   void build_hash() { hash.build(mesh, edge > 0.0 ? edge : mean_edge_length(mesh)); }
@@ -203,7 +201,7 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at,
 
 /// Returns whether every triangle of the fan faces as its samples do and keeps the angle of the
 /// round, and the node has a sample near. A triangle with few samples is compared with the samples
-/// about its corners (`about`, of FitState::node_normals).
+/// about its corners (`about`, of FitState).
 bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
                  const std::vector<Vector3>& about);
 

@@ -84,6 +84,14 @@ struct NearestSample {
   std::int32_t sample = -1;
   double outmost = -1e300;
 
+  void add(std::int32_t s, const Vector3& point, const Vector3& corner, const StarShape& shape) {
+    const double squared = (corner - point).squaredNorm();
+    if (squared < squared_distance) {
+      squared_distance = squared;
+      sample = s;
+    }
+    if (shape.rim > 0.0) outmost = std::max(outmost, shape.normal.dot(point));
+  }
   void add(const NearestSample& other) {
     if (other.squared_distance < squared_distance) {
       squared_distance = other.squared_distance;
@@ -102,6 +110,8 @@ class FitEquations {
         count_(state.mesh.points.size()),
         shapes_(count_),
         centres_(count_),
+        normals_(mesh_.triangles.size()),
+        lengths_(mesh_.triangles.size()),
         faces_(mesh_.triangles.size()),
         nearest_(3 * mesh_.triangles.size()),
         diagonal_(count_),
@@ -110,6 +120,10 @@ class FitEquations {
     state_.edge = mean_edge_length(mesh_);
     state_.ring_edges.assign(count_, 0.0);
     list_neighbours();
+    for (std::size_t t = 0; t < normals_.size(); ++t) {
+      normals_[t] = mesh_.normal(t);
+      lengths_[t] = normals_[t].norm();
+    }
     for_nodes([&](std::size_t i) { look_at(i); });
     execution_.parallel_for(faces_.size(), system_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
@@ -126,6 +140,7 @@ class FitEquations {
   std::vector<Vector3> solve() const {
     std::vector<Vector3> step(count_, Vector3::Zero());
     std::vector<Vector3> r = right_;
+    std::vector<Vector3> z(count_);
     std::vector<Vector3> p(count_);
     std::vector<Vector3> q(count_);
     std::vector<Vector3> bent(count_);
@@ -144,11 +159,12 @@ class FitEquations {
       const double next = sum_nodes([&](std::size_t i) {
         step[i] += along * p[i];
         r[i] -= along * q[i];
-        return r[i].dot(inverse_[i] * r[i]);
+        z[i] = inverse_[i] * r[i];
+        return r[i].dot(z[i]);
       });
       const double turn = next / rz;
       rz = next;
-      for_nodes([&](std::size_t i) { p[i] = inverse_[i] * r[i] + turn * p[i]; });
+      for_nodes([&](std::size_t i) { p[i] = z[i] + turn * p[i]; });
     }
     return step;
   }
@@ -176,6 +192,7 @@ class FitEquations {
     half_edges_.resize(starts_.back());
     neighbours_.resize(starts_.back());
     blocks_.resize(starts_.back());
+    ring_shares_.resize(starts_.back());
     ring_sums_.assign(count_, 0.0);
     for (std::size_t i = 0; i < count_; ++i) {
       std::int32_t at = starts_[i];
@@ -184,6 +201,12 @@ class FitEquations {
         neighbours_[at++] = mesh_.target(h);
         ring_sums_[i] += state_.ring_weight(static_cast<std::int32_t>(i), mesh_.target(h));
       });
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
+        const std::int32_t j = neighbours_[at];
+        ring_shares_[at] = state_.ring_weight(static_cast<std::int32_t>(i), j) / ring_sums_[j];
+      }
     }
   }
 
@@ -200,7 +223,7 @@ class FitEquations {
     state_.ring_edges[i] = edges / static_cast<double>(mesh_.degrees[i]);
     shapes_[i] = star_shape([&](const auto& visit) {
       for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-        visit(mesh_.normal(face_of(half_edges_[at])));
+        visit(normals_[face_of(half_edges_[at])], lengths_[face_of(half_edges_[at])]);
       }
     });
   }
@@ -209,14 +232,17 @@ class FitEquations {
   void add_samples(std::size_t t) {
     if (state_.of[t].empty()) return;
     const auto& [a, b, c] = mesh_.triangles[t];
-    const Vector3& pa = mesh_.points[a];
-    const Vector3& pb = mesh_.points[b];
-    const Vector3& pc = mesh_.points[c];
-    const Vector3 normal = unit_normal_of(pa, pb, pc);
+    const Vector3 pa = mesh_.points[a];
+    const Vector3 pb = mesh_.points[b];
+    const Vector3 pc = mesh_.points[c];
+    const Vector3 normal = normals_[t] / (lengths_[t] + 1e-300);
     // First each corner with itself, then corner k with corner k + 1.
     Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
     FaceSystem& face = faces_[t];
     const double share = state_.share();
+    const std::array<const Vector3*, 3> corners = {&pa, &pb, &pc};
+    const std::array<const StarShape*, 3> shapes = {&shapes_[a], &shapes_[b], &shapes_[c]};
+    std::array<NearestSample, 3> nearest;
     for (const std::int32_t s : state_.of[t]) {
       const FitSample& sample = state_.samples[s];
       const TrianglePlace& place = sample.place;
@@ -230,7 +256,9 @@ class FitEquations {
       const Vector3 pull = weight * off * u;
       const Vector3& w = place.weights;
       for (int k = 0; k < 3; ++k) {
-        look_at_nearest(t, k, s);
+        const auto corner = static_cast<std::size_t>(k);
+        if (w[k] > own_weight)
+          nearest[corner].add(s, sample.point, *corners[corner], *shapes[corner]);
         sums.col(k) += w[k] * w[k] * metric;
         sums.col(3 + k) += w[k] * w[(k + 1) % 3] * metric;
         face.pull[k] -= w[k] * pull;
@@ -240,16 +268,8 @@ class FitEquations {
       face.own[k] = whole(sums.col(k));
       face.pair[k] = whole(sums.col(3 + k));
     }
-  }
-
-  void look_at_nearest(std::size_t t, int k, std::int32_t s) {
-    const FitSample& sample = state_.samples[s];
-    if (sample.place.weights[k] <= own_weight) return;
-    const std::size_t corner = 3 * t + static_cast<std::size_t>(k);
-    const std::int32_t v = mesh_.triangles[t][static_cast<std::size_t>(k)];
-    const StarShape& shape = shapes_[v];
-    nearest_[corner].add({(mesh_.points[v] - sample.point).squaredNorm(), s,
-                          shape.rim > 0.0 ? shape.normal.dot(sample.point) : -1e300});
+    std::copy(nearest.begin(), nearest.end(),
+              nearest_.begin() + static_cast<std::ptrdiff_t>(3 * t));
   }
 
   /// Adds the price of a sharp triangle.
@@ -371,8 +391,7 @@ class FitEquations {
   Vector3 ring_transposed(std::size_t i, const std::vector<Vector3>& values) const {
     Vector3 result = values[i];
     for (std::int32_t at = starts_[i]; at < starts_[i + 1]; ++at) {
-      const std::int32_t j = neighbours_[at];
-      result -= state_.ring_weight(static_cast<std::int32_t>(i), j) / ring_sums_[j] * values[j];
+      result -= ring_shares_[at] * values[neighbours_[at]];
     }
     return result;
   }
@@ -394,9 +413,12 @@ class FitEquations {
   const EditMesh& mesh_;
   const Execution& execution_;
   std::size_t count_;
-  std::vector<StarShape> shapes_;  ///< of each node's star
-  std::vector<Vector3> centres_;   ///< of each ring
-  std::vector<double> ring_sums_;  ///< of the ring's weights
+  std::vector<StarShape> shapes_;    ///< of each node's star
+  std::vector<Vector3> centres_;     ///< of each ring
+  std::vector<double> ring_sums_;    ///< of the ring's weights
+  std::vector<double> ring_shares_;  ///< of each node in its neighbours' rings
+  std::vector<Vector3> normals_;     ///< of the triangles, twice their area long
+  std::vector<double> lengths_;      ///< of the normals
   std::vector<FaceSystem> faces_;
   std::vector<NearestSample> nearest_;  ///< to half-edge h's origin in its triangle
   std::vector<std::int32_t> starts_;
@@ -433,15 +455,12 @@ class GuardedMove {
         step_(std::move(step)),
         old_(mesh_.points),
         shares_(mesh_.points.size(), 1.0),
-        marked_(mesh_.points.size(), 0),
+        marked_(mesh_.points.size(), 1),
         old_normals_(mesh_.triangles.size()),
-        normals_(mesh_.triangles.size()),
-        outward_(mesh_.triangles.size()),
-        old_sharpness_(mesh_.triangles.size()) {
+        outward_(mesh_.triangles.size()) {
     const std::vector<Vector3>& about = state_.about;
     const auto look = [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
-        old_sharpness_[t] = mesh_.sharpness(t);
         old_normals_[t] = state_.unit_normal(t);
         outward_[t] = outward_of(t, about);
       }
@@ -462,7 +481,6 @@ class GuardedMove {
     constexpr int halvings = 8;
     constexpr int shortenings = 6;
     for (int attempt = 0; attempt < most_tries; ++attempt) {
-      std::fill(marked_.begin(), marked_.end(), 0);
       if (mark_spoilt()) {
         shorten(attempt < halvings ? 0.5 : 0.0);
         continue;
@@ -514,23 +532,34 @@ class GuardedMove {
     }
   }
 
-  bool is_spoilt(std::size_t t) const {
-    const Vector3& normal = normals_[t];
-    const double after = normal.dot(outward_[t]);
-    const double before = old_normals_[t].dot(outward_[t]);
-    return normal.dot(old_normals_[t]) < most_step_turn ||
-           mesh_.sharpness(t) > std::max(state_.round.sharpness_limit, old_sharpness_[t]) + 1e-9 ||
-           (after < least_agreement && after < before);
+  std::array<Vector3, 3> old_corners(std::size_t t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {old_[a], old_[b], old_[c]};
   }
 
+  bool is_spoilt(std::size_t t) const {
+    const Vector3 normal = state_.unit_normal(t);
+    if (normal.dot(old_normals_[t]) < most_step_turn) return true;
+    const double after = normal.dot(outward_[t]);
+    if (after < least_agreement && after < old_normals_[t].dot(outward_[t])) return true;
+    const double sharpness = mesh_.sharpness(t);
+    if (sharpness <= state_.round.sharpness_limit + 1e-9) return false;
+    const auto [a, b, c] = old_corners(t);
+    return sharpness > largest_corner_cosine(a, b, c) + 1e-9;
+  }
+
+  /// Marks the corners of spoilt triangles, and no others. Only triangles with a marked corner have
+  /// changed since the last look.
   bool mark_spoilt() {
     std::vector<char> spoilt(mesh_.triangles.size());
     execution_.parallel_for(spoilt.size(), guarded_block, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
-        normals_[t] = state_.unit_normal(t);
-        spoilt[t] = is_spoilt(t) ? 1 : 0;
+        const auto& [a, b, c] = mesh_.triangles[t];
+        const bool changed = (marked_[a] | marked_[b] | marked_[c]) != 0;
+        spoilt[t] = changed && is_spoilt(t) ? 1 : 0;
       }
     });
+    std::fill(marked_.begin(), marked_.end(), 0);
     bool any = false;
     for (std::size_t t = 0; t < spoilt.size(); ++t) {
       if (spoilt[t] == 0) continue;
@@ -548,11 +577,9 @@ class GuardedMove {
     for (const auto& [t, u] : state_.hash.pairs(mesh_, execution_)) {
       none_meet_ = false;
       state_.had_pairs = true;
-      const auto at = [&](std::int32_t f) {
-        const auto& [a, b, c] = mesh_.triangles[f];
-        return std::array<Vector3, 3>{old_[a], old_[b], old_[c]};
-      };
-      if (triangles_cross(mesh_.triangles[t], at(t), mesh_.triangles[u], at(u))) continue;
+      if (triangles_cross(mesh_.triangles[t], old_corners(t), mesh_.triangles[u], old_corners(u))) {
+        continue;
+      }
       any = mark_free(t) || any;
       any = mark_free(u) || any;
     }
@@ -585,12 +612,10 @@ class GuardedMove {
   std::vector<Vector3> step_;
   std::vector<Vector3> old_;
   std::vector<double> shares_;
-  std::vector<char> marked_;
+  std::vector<char> marked_;  ///< nodes to move back
   std::vector<Vector3> old_normals_;
-  std::vector<Vector3> normals_;  ///< at the nodes' current positions; unit
   std::vector<Vector3> outward_;  ///< the scan's direction at each triangle; unit or zero
-  std::vector<double> old_sharpness_;
-  bool none_meet_ = false;  ///< at the last check, if no node has moved since
+  bool none_meet_ = false;        ///< at the last check, if no node has moved since
 };
 
 }  // namespace

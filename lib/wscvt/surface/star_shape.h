@@ -33,15 +33,15 @@ struct StarShape {
 };
 
 /// Computes the shape of a star. `for_each` calls its argument with the area vector of every
-/// triangle, in any unit. A rim's direction is the one to which their normals are most
-/// perpendicular.
+/// triangle, in any unit, and its length. A rim's direction is the one to which their normals are
+/// most perpendicular.
 template <class ForEach>
 StarShape star_shape(const ForEach& for_each) {
   Vector3 sum = Vector3::Zero();
   double area = 0.0;
-  for_each([&](const Vector3& vector) {
+  for_each([&](const Vector3& vector, double of_one) {
     sum += vector;
-    area += vector.norm();
+    area += of_one;
   });
   StarShape shape;
   const double length = sum.norm();
@@ -49,8 +49,8 @@ StarShape star_shape(const ForEach& for_each) {
   shape.rim = rim_share(length / (area + 1e-300));
   if (shape.rim == 0.0) return shape;
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
-  for_each([&](const Vector3& vector) {
-    tensor += vector * vector.transpose() / (vector.norm() + 1e-300);
+  for_each([&](const Vector3& vector, double of_one) {
+    tensor += vector * vector.transpose() / (of_one + 1e-300);
   });
   shape.along = least_direction(tensor);
   return shape;
