@@ -10,15 +10,7 @@
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
 #include "wscvt/mesh_files/byte_reader.h"
-#include "wscvt/mesh_files/element_readers.h"
-#include "wscvt/mesh_files/legacy_vtk_reader.h"
-#include "wscvt/mesh_files/obj_reader.h"
-#include "wscvt/mesh_files/off_reader.h"
-#include "wscvt/mesh_files/pcd_reader.h"
-#include "wscvt/mesh_files/ply_reader.h"
-#include "wscvt/mesh_files/point_text_reader.h"
-#include "wscvt/mesh_files/stl_reader.h"
-#include "wscvt/mesh_files/vtp_reader.h"
+#include "wscvt/mesh_files/readers.h"
 
 namespace {
 

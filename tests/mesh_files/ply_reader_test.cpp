@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/ply_reader.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,6 +10,7 @@
 
 #include "support/read_content.h"
 #include "support/seeds.h"
+#include "wscvt/mesh_files/readers.h"
 
 namespace wscvt {
 namespace {

@@ -10,9 +10,7 @@
 #include "support/read_content.h"
 #include "wscvt/base/error.h"
 #include "wscvt/mesh_files/byte_reader.h"
-#include "wscvt/mesh_files/obj_reader.h"
-#include "wscvt/mesh_files/off_reader.h"
-#include "wscvt/mesh_files/stl_reader.h"
+#include "wscvt/mesh_files/readers.h"
 
 namespace wscvt {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // https://docs.vtk.org/en/latest/vtk_file_formats/. VTK itself is not used, because its library is
 // 100 MB.
-#include "wscvt/mesh_files/legacy_vtk_reader.h"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -11,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 #include "wscvt/mesh_files/vtk_polygons.h"
 

@@ -27,18 +27,10 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/byte_reader.h"
-#include "wscvt/mesh_files/element_readers.h"
 #include "wscvt/mesh_files/gzip_content.h"
-#include "wscvt/mesh_files/legacy_vtk_reader.h"
-#include "wscvt/mesh_files/obj_reader.h"
-#include "wscvt/mesh_files/off_reader.h"
-#include "wscvt/mesh_files/pcd_reader.h"
-#include "wscvt/mesh_files/ply_reader.h"
-#include "wscvt/mesh_files/point_text_reader.h"
-#include "wscvt/mesh_files/stl_reader.h"
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_writers.h"
 #include "wscvt/mesh_files/texture_files.h"
-#include "wscvt/mesh_files/vtp_reader.h"
 
 namespace wscvt {
 

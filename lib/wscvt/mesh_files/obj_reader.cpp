@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/obj_reader.h"
-
 #include <array>
 #include <functional>
 #include <limits>
@@ -13,6 +11,7 @@
 
 #include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // https://pointclouds.org/documentation/tutorials/pcd_file_format.html. PCL is not used, because
 // its file library needs VTK.
-#include "wscvt/mesh_files/pcd_reader.h"
-
 #include <array>
 #include <limits>
 #include <optional>
@@ -10,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

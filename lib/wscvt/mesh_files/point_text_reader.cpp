@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/point_text_reader.h"
-
 #include <array>
 #include <limits>
 #include <optional>
@@ -8,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

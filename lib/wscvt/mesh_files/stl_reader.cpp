@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/stl_reader.h"
-
 #include <limits>
 #include <optional>
 #include <string>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/mesh_files/face_names.h"
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

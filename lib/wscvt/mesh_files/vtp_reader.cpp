@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VTK itself is not used, because its library is 100 MB. Its XML has only a few tags with
 // attributes. An XML parser would be one more library to link.
-#include "wscvt/mesh_files/vtp_reader.h"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 #include "wscvt/mesh_files/vtk_polygons.h"
 

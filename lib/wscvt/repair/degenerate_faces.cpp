@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/degenerate_faces.h"
-
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/repair_steps.h"
 
 namespace wscvt {
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/holes.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
@@ -12,6 +10,7 @@
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/repair_steps.h"
 
 namespace wscvt {
 

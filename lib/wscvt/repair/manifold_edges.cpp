@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/manifold_edges.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/repair_steps.h"
 
 namespace wscvt {
 

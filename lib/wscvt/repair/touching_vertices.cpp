@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/repair/touching_vertices.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
+#include "wscvt/repair/repair_steps.h"
 
 namespace wscvt {
 
