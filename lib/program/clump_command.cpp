@@ -5,17 +5,10 @@
 
 #include "command.h"
 #include "exit_code.h"
-#include "grain_inputs.h"
-#include "job_on_terminal.h"
 #include "output_paths.h"
-#include "signals.h"
 #include "toolbox/clump/clump.h"
 #include "toolbox/exchange/clump_files.h"
-#include "toolbox/report/clump_json.h"
 #include "toolbox/report/clump_report.h"
-#include "toolbox/report/sample_table.h"
-#include "toolbox/volume/open_volume.h"
-#include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -52,13 +45,6 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
        "own values.\nwscvt compare clump.csv scan.ply measures a clump.",
        true,
        true});
-  app.add_option(
-         "scans", arguments.inputs,
-         mesh_argument_text("Scan", MeshUse::Read) +
-             "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE with "
-             "one of these per line")
-      ->type_name("INPUT")
-      ->required();
   app.add_option("-o,--output", arguments.outputs,
                  "Write the clump to this file. Endings: .csv (x,y,z,r), .multisphere (LIGGGHTS), "
                  ".py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for MercuryDPM), "
@@ -67,27 +53,19 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);
-  app.add_option("--format", arguments.format,
-                 "Ending of the clumps of several scans, without the point. Default: csv")
-      ->type_name("NAME")
-      ->group(finer_settings);
-  add_typed(app, "--shard",
-            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Use only part I of N of several scans, selected by their names")
-      ->type_name("I/N")
-      ->group(finer_settings);
+  add_scan_inputs(app, arguments.sample, "clumps", arguments.job.format);
   AddClumpOption add{app};
-  for_each_clump_option(arguments.options, add);
+  for_each_clump_option(arguments.job.clump, add);
   for (const std::string_view key : {points_option.key, shrink_wrap_option.key,
                                      repaired_area_limit_option.key, most_spheres_option.key}) {
     app.get_option("--" + std::string(key))->group(finer_settings);
   }
-  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.frame.frame)
+  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame)
       ->group(finer_settings);
-  add_number(app, "--" + std::string(size_option.key), arguments.frame.size, size_option);
-  add_number(app, "--" + std::string(scale_option.key), arguments.frame.scale, scale_option)
+  add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
+  add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option)
       ->group(finer_settings);
-  add_number(app, "--" + std::string(clump_density_option.key), arguments.density,
+  add_number(app, "--" + std::string(clump_density_option.key), arguments.job.density,
              clump_density_option)
       ->group(finer_settings);
   add_common_arguments(app, arguments.common);
@@ -97,83 +75,17 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   return app;
 }
 
-namespace {
-
-/// Returns whether the inputs are a sample, that is, anything except one mesh file.
-bool is_sample(const std::vector<std::string>& inputs) {
-  return inputs.size() > 1 || names_files(inputs.front()) || is_volume(inputs.front());
-}
-
-/// Returns the options that must be equal when a sample is started again.
-std::string call_text(const ClumpArguments& arguments) {
-  return json_document({{"format", "wscvt-clumps"},
-                        {"made_by", made_by()},
-                        {"clumps", arguments.format},
-                        {"frame", key_of(arguments.frame.frame)},
-                        {"size", arguments.frame.size},
-                        {"scale", arguments.frame.scale},
-                        {"density", arguments.density},
-                        {"options", json_of(arguments.options)}});
-}
-
-/// Returns the job of a sample.
-GrainJob clump_job(const ClumpArguments& arguments) {
-  GrainJob job;
-  job.folder = arguments.outputs.front();
-  job.shard = arguments.shard;
-  job.ending = arguments.format;
-  job.call = call_text(arguments);
-  job.tables = {{"grains", sample_header(clump_csv(ClumpResult()), false)}};
-  job.make = [&arguments](GrainAtWork& grain) -> std::vector<std::string> {
-    ClumpResult clump = make_clump(std::move(grain.scan.mesh), arguments.options, grain.execution);
-    clump.warnings.insert(clump.warnings.begin(), grain.scan.warnings.begin(),
-                          grain.scan.warnings.end());
-    write_clump(grain.folders.front().file_of(grain.name), clump, arguments.frame,
-                arguments.density);
-    return {sample_row(grain.name, clump_csv(clump, {grain.name, ""}), {})};
-  };
-  job.failed = [](const std::string& grain, const std::string& error,
-                  double) -> std::vector<std::string> {
-    return {failed_row(grain, error, clump_csv(ClumpResult()), {})};
-  };
-  return job;
-}
-
-int run_sample(const ClumpArguments& arguments) {
-  const bool quiet = arguments.common.quiet;
-  const std::vector<std::string> files = checked([&] {
-    if (arguments.outputs.size() != 1 || is_clump_name(arguments.outputs.front())) {
-      refuse("Several scans are given. Give one folder with -o, and --format for the clumps.");
-    }
-    if (!arguments.common.reports.empty()) {
-      refuse(
-          "Several scans are given. Their table is grains.csv in the folder of -o. Leave out "
-          "--report.");
-    }
-    check_clump_path("clump." + arguments.format);
-    return input_files(arguments.inputs);
-  });
-  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
-  const GrainJob job = clump_job(arguments);
-  const JobEnd end = run_job(job, *inputs, arguments.common.threads, quiet);
-  if (end.was_cancelled()) return 128 + noted_signal();
-  print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
-         " failed: " + folders_of(job).front().table()},
-        quiet);
-  return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
-}
-
-}  // namespace
-
 int run(const ClumpArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  checked([&] {
-    check_clump_options(arguments.options);
-    check_frame_options(arguments.frame);
-    require_in_range(arguments.density, clump_density_option);
-  });
-  if (is_sample(arguments.inputs)) return run_sample(arguments);
-  const std::string& scan = arguments.inputs.front();
+  checked([&] { check_job(arguments.job); });
+  if (arguments.sample.is_sample()) {
+    checked(
+        [&] { check_sample_outputs(arguments.outputs, common.reports, "clumps", is_clump_name); });
+    return run_sample(arguments.sample,
+                      make_job(arguments.job, arguments.outputs.front(), arguments.sample.shard),
+                      common.threads, common.quiet);
+  }
+  const std::string& scan = arguments.sample.inputs.front();
   checked([&] {
     check_mesh_format(scan, MeshUse::Read);
     std::vector<NamedFile> outputs = named_reports(common.reports);
@@ -188,12 +100,12 @@ int run(const ClumpArguments& arguments) {
   });
   Work work(common);
   MeshFile file = read_mesh_file(scan, work.execution().part(0.0, reading_share));
-  ClumpResult clump = make_clump(std::move(file.mesh), arguments.options,
+  ClumpResult clump = make_clump(std::move(file.mesh), arguments.job.clump,
                                  work.execution().part(reading_share, 1.0));
   clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
   for (const std::string& output : arguments.outputs) {
     work.write(output, [&](const std::string& path, const Execution&) {
-      write_clump(path, clump, arguments.frame, arguments.density);
+      write_clump(path, clump, arguments.job.frame, arguments.job.density);
     });
   }
   for (const std::string& report : common.reports) {

@@ -6,21 +6,16 @@
 #include <vector>
 
 #include "common_arguments.h"
-#include "toolbox/clump/clump_options.h"
-#include "toolbox/exchange/simulation_options.h"
-#include "toolbox/job/grain_files.h"
+#include "grain_inputs.h"
+#include "toolbox/job/engine_jobs.h"
 
 namespace wscvt::program {
 
 /// `wscvt clump`: makes a clump of spheres of one grain, or of each grain of a sample.
 struct ClumpArguments {
-  std::vector<std::string> inputs;   ///< a scan, or inputs as of a batch
+  ScanInputs sample;
   std::vector<std::string> outputs;  ///< files, the ending selects the format; or one folder
-  std::string format = "csv";        ///< of a sample: ending of the clumps
-  Shard shard;                       ///< of a sample
-  ClumpOptions options;
-  FrameOptions frame;
-  double density = 1.0;  ///< of .molecule
+  ClumpJob job;
   CommonArguments common;
 };
 

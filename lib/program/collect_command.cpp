@@ -5,10 +5,8 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "output_paths.h"
-#include "toolbox/report/clump_report.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
-#include "toolbox/report/shape_table.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/report/report.h"
@@ -45,13 +43,12 @@ int run(const CollectArguments& arguments) {
     check_output_paths(inputs, outputs, false);
     for (const std::string& summary : arguments.summaries) check_summary(summary);
   });
-  const bool holds_clumps = is_clump_table(arguments.tables.front());
-  if (holds_clumps || is_shape_table(arguments.tables.front())) {
+  if (is_without_summary(arguments.tables.front())) {
     if (!arguments.summaries.empty()) {
       throw WrongCall(
-          holds_clumps
-              ? "Tables of clumps have no summary. Leave out --report."
-              : "Tables of shapes have no summary. Leave out --report, and use wscvt sample.");
+          "Only tables of remeshes have a summary. Leave out --report. wscvt sample reads tables "
+          "of "
+          "shapes.");
     }
     join_tables(arguments.tables, arguments.output);
     return Done;

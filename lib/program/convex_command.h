@@ -6,22 +6,16 @@
 #include <vector>
 
 #include "common_arguments.h"
-#include "toolbox/convex/convex_options.h"
-#include "toolbox/exchange/simulation_options.h"
-#include "wscvt/remesh/remesh_options.h"
+#include "grain_inputs.h"
+#include "toolbox/job/engine_jobs.h"
 
 namespace wscvt::program {
 
-/// `wscvt convex`: divides a grain into convex parts.
+/// `wscvt convex`: divides a grain, or each grain of a sample, into convex parts.
 struct ConvexArguments {
-  ConvexArguments();
-
-  std::string scan;
-  std::vector<std::string> outputs;  ///< files; the ending selects the format
-  ConvexOptions options;
-  FrameOptions frame;
-  double density = 1.0;
-  RemeshOptions remesh;
+  ScanInputs sample;
+  std::vector<std::string> outputs;  ///< files, the ending selects the format; or one folder
+  ConvexJob job;
   CommonArguments common;
 };
 

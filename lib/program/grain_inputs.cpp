@@ -3,12 +3,17 @@
 
 #include <utility>
 
+#include "command.h"
+#include "common_arguments.h"
+#include "exit_code.h"
+#include "job_on_terminal.h"
 #include "progress_line.h"
 #include "signals.h"
 #include "toolbox/job/label_source.h"
 #include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
+#include "wrong_call.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -37,6 +42,54 @@ void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet)
 }
 
 }  // namespace
+
+bool ScanInputs::is_sample() const {
+  return inputs.size() > 1 || names_files(inputs.front()) || is_volume(inputs.front());
+}
+
+void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
+                          std::string& format) {
+  app.add_option("scans", arguments.inputs,
+                 mesh_argument_text("Scan", MeshUse::Read) +
+                     "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE "
+                     "with one of these per line")
+      ->type_name("INPUT")
+      ->required();
+  app.add_option(
+         "--format", format,
+         "Ending of the " + files + " of several scans, without the point. Default: " + format)
+      ->type_name("NAME")
+      ->group(finer_settings);
+  add_typed(app, "--shard",
+            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
+      ->description("Use only part I of N of several scans, selected by their names")
+      ->type_name("I/N")
+      ->group(finer_settings);
+}
+
+void check_sample_outputs(const std::vector<std::string>& outputs,
+                          const std::vector<std::string>& reports, const std::string& files,
+                          const std::function<bool(const std::string&)>& is_file) {
+  if (outputs.size() != 1 || is_file(outputs.front())) {
+    refuse("Several scans are given. Give one folder with -o, and --format for the " + files + ".");
+  }
+  if (!reports.empty()) {
+    refuse(
+        "Several scans are given. Their table is grains.csv in the folder of -o. Leave out "
+        "--report.");
+  }
+}
+
+int run_sample(const ScanInputs& arguments, const GrainJob& job, int threads, bool quiet) {
+  const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
+  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  const JobEnd end = run_job(job, *inputs, threads, quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
+  print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
+         " failed: " + folders_of(job).front().table()},
+        quiet);
+  return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
+}
 
 std::vector<std::string> input_files(const std::vector<std::string>& inputs) {
   std::vector<std::string> files = grain_files(inputs, is_volume);

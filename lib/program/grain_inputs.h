@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "toolbox/job/grain_source.h"
+#include "toolbox/job/grain_job.h"
 #include "toolbox/volume/label_grains.h"
 
 namespace wscvt::program {
+
+/// A sample as the input of a command that also works on one grain.
+struct ScanInputs {
+  std::vector<std::string> inputs;  ///< a scan, or inputs as of a batch
+  Shard shard;                      ///< of a sample
+
+  /// Whether there is anything except one mesh file.
+  bool is_sample() const;
+};
+
+/// Adds the inputs, --format and --shard. `files` are what is made of each grain, and `format`
+/// their ending. Parsing changes `arguments` and `format`, which must outlive `app`.
+void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
+                          std::string& format);
+
+/// Throws wscvt::Error(InvalidInput) if the outputs are not one folder, or a report is asked for.
+/// `is_file` tells whether an output is the name of a file.
+void check_sample_outputs(const std::vector<std::string>& outputs,
+                          const std::vector<std::string>& reports, const std::string& files,
+                          const std::function<bool(const std::string&)>& is_file);
+
+/// Runs the job of a sample, prints its table's name, and returns the exit code.
+int run_sample(const ScanInputs& arguments, const GrainJob& job, int threads, bool quiet);
 
 /// Returns the files of the inputs of a batch, see grain_files. Throws wscvt::Error for a file that
 /// is no volume and whose ending is that of no mesh.

@@ -17,7 +17,7 @@ bool is_kept_by_batch(const fs::path& path) {
   const std::string kind = stem.substr(0, stem.find('-'));
   std::error_code ignored;
   if ((kind != "grains" && kind != "shape" && kind != "call" && kind != "summary" &&
-       kind != "labels") ||
+       kind != "labels" && kind != "mass") ||
       !fs::exists(path, ignored)) {
     return false;
   }

@@ -7,22 +7,14 @@ namespace wscvt::program {
 
 namespace {
 
-void add_files(CLI::App& app, const std::string& name, std::vector<std::string>& files,
-               const std::string& description) {
-  app.add_option(name, files, description)->type_name("FILE")->allow_extra_args(false);
+void add_files(CLI::App& app, const std::string& name, const std::string& type,
+               std::vector<std::string>& files, const std::string& description) {
+  app.add_option(name, files, description + ". May be given more than once")
+      ->type_name(type)
+      ->allow_extra_args(false);
 }
 
-}  // namespace
-
-void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
-  add_files(app, "--node-table", arguments.nodes,
-            "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
-            ".vtp is for ParaView, .shp is a shape for Rockable. May be given more than once");
-  add_files(app, "--sdf", arguments.grids,
-            "Write signed distances on a grid to this .npy, .vti or .json\n"
-            "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
-            ".vti is for ParaView, .json is a level set for NetDEM. May be given more than once");
-  SimulationOptions& options = arguments.options;
+void add_options(CLI::App& app, SimulationOptions& options) {
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), options.frame.frame);
   add_number(app, "--" + std::string(size_option.key), options.frame.size, size_option)
       ->group(finer_settings);
@@ -33,6 +25,28 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
   add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
              grid_spacing_option)
       ->group(finer_settings);
+}
+
+}  // namespace
+
+void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
+  add_files(app, "--node-table", "FILE", arguments.nodes,
+            "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
+            ".vtp is for ParaView, .shp is a shape for Rockable");
+  add_files(app, "--sdf", "FILE", arguments.grids,
+            "Write signed distances on a grid to this .npy, .vti or .json\n"
+            "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
+            ".vti is for ParaView, .json is a level set for NetDEM");
+  add_options(app, arguments.options);
+}
+
+void add_simulation_arguments(CLI::App& app, RemeshJob& job) {
+  add_files(app, "--node-table", "NAME", job.node_tables,
+            "Write position, normal and area of every node, one file per grain in "
+            "OUT/node-table: csv, vtp or shp");
+  add_files(app, "--sdf", "NAME", job.grids,
+            "Write signed distances on a grid, one file per grain in OUT/sdf: npy, vti or json");
+  add_options(app, job.simulation);
 }
 
 std::vector<NamedFile> named_simulation_files(const SimulationArguments& arguments) {

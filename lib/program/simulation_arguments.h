@@ -7,6 +7,7 @@
 
 #include "output_paths.h"
 #include "toolbox/exchange/simulation_files.h"
+#include "toolbox/job/remesh_job.h"
 
 namespace wscvt::program {
 
@@ -19,6 +20,9 @@ struct SimulationArguments {
 
 /// Adds the arguments. Parsing changes `arguments`, which must outlive `app`.
 void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments);
+
+/// Adds those of many grains, of whose files only the endings are given.
+void add_simulation_arguments(CLI::App& app, RemeshJob& job);
 
 /// Returns the files that the call makes.
 std::vector<NamedFile> named_simulation_files(const SimulationArguments& arguments);

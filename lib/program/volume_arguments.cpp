@@ -155,23 +155,4 @@ bool is_much_left_out(double fraction) {
   return fraction > much;
 }
 
-Json json_of(const VolumeOptions& options) {
-  Json json = Json::object();
-  const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
-  put(smallest_option.key, options.smallest);
-  put(smoothing_option.key, options.smoothing);
-  const VolumeChoice& choice = options.choice;
-  put(voxel_size_option.key, choice.voxel_size ? wscvt::json_of(*choice.voxel_size) : Json());
-  put("unit", choice.unit);
-  put(parts_option.key, options.parts);
-  put(separate_option.key, options.separate ? Json(*options.separate) : Json());
-  put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
-  put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
-  put("array", choice.array);
-  const bool is_nan = std::isnan(options.background);
-  put(background_option.key, is_nan ? Json("nan") : Json(options.background));
-  put(at_border_option.key, options.at_border);
-  return json;
-}
-
 }  // namespace wscvt::program

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "toolbox/volume/label_grains.h"
-#include "wscvt/report/json.h"
 
 namespace wscvt::program {
 
@@ -29,8 +28,5 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
 /// Returns whether the fraction of a volume that is left out is so large that the exit code is
 /// SomeFailed.
 bool is_much_left_out(double fraction);
-
-/// Returns every option under the name that users type.
-Json json_of(const VolumeOptions& options);
 
 }  // namespace wscvt::program

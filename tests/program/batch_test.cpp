@@ -259,6 +259,64 @@ TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
                  {"bad"});
 }
 
+TEST_F(Batch, FilesForASimulationAreThoseOfTheGrainsAlone) {
+  write_scans(2);
+  std::ofstream(folder_ / "scans/broken.ply") << "no mesh";
+  const std::string options = " -q -d 6 --frame principal --size 3 --sdf-spacing 0.3 ";
+  ASSERT_EQ(run("batch scans -o out -n 60,90 --describe none --node-table csv --node-table shp "
+                "--sdf npy --sdf json" +
+                options)
+                .exit_code,
+            3);
+  for (const std::string nodes : {"60", "90"}) {
+    // In a folder of their own, because the shape has the file's name.
+    ASSERT_EQ(run("remesh " + scan(1) + " b.ply -n " + nodes +
+                  " --node-table b.csv --node-table b.shp --sdf b.npy --sdf b.json" + options)
+                  .exit_code,
+              0);
+    const std::string out = "out/n" + nodes;
+    EXPECT_EQ(content(out + "/b.ply"), content("b.ply"));
+    for (const std::string name :
+         {"node-table/b.csv", "node-table/b.shp", "sdf/b.npy", "sdf/b.json"}) {
+      EXPECT_NE(content(out + "/" + name), "") << name;
+      EXPECT_EQ(content(out + "/" + name), content(fs::path(name).filename())) << name;
+    }
+    // The masses are those of the description beside the grid, which alone has a date.
+    Json alone = Json::parse(content("b.npy.json"));
+    Json made = Json::parse(content(out + "/sdf/b.npy.json"));
+    EXPECT_TRUE(made.at("date").is_null());
+    alone["date"] = nullptr;
+    EXPECT_EQ(made, alone);
+    EXPECT_EQ(column(out + "/mass.csv", "status"),
+              (std::vector<std::string>{"done", "done", "failed"}));
+    EXPECT_EQ(column(out + "/mass.csv", "file")[1], "b.ply");
+    const Json& mass = made.at("mass");
+    EXPECT_NEAR(mass.at("volume"), 4.5 * test::pi, 1e-9) << "of a sphere with diameter 3";
+    for (const char* key : {"volume", "inertia_tensor.xx", "principal_moments.greatest"}) {
+      const Json::json_pointer place("/" + std::regex_replace(key, std::regex("\\."), "/"));
+      EXPECT_EQ(std::stod(column(out + "/mass.csv", key)[1]), mass.at(place)) << key;
+    }
+  }
+  // It goes on, and with other options it does not.
+  const std::string table = content("out/n60/mass.csv");
+  fs::resize_file(folder_ / "out/n60/mass.csv", table.size() - 10);
+  const std::string again =
+      "batch scans -o out -n 60,90 --describe none --node-table csv "
+      "--node-table shp --sdf npy --sdf json -q -d 6 --sdf-spacing 0.3 ";
+  EXPECT_EQ(run(again + "--frame principal --size 3").exit_code, 3);
+  EXPECT_EQ(content("out/n60/mass.csv"), table);
+  EXPECT_EQ(run(again + "--frame principal --size 2").exit_code, 2);
+  EXPECT_EQ(run("describe out/n60/b.ply -q --report out/n60/mass.csv").exit_code, 2);
+  expect_refused("batch scans -o bad -q",
+                 {{"--node-table txt", 2, "Use .csv, .vtp or .shp"},
+                  {"--node-table shp", 2, "principal"},
+                  {"--sdf csv", 2, "Use .npy, .vti or .json"},
+                  {"--size 1 --scale 2", 2, "Give one of them"}},
+                 {"bad"});
+  EXPECT_EQ(run("batch " + scan(0) + " -o plain -q -n 60 -d 6").exit_code, 0);
+  EXPECT_FALSE(exists("plain/mass.csv"));
+}
+
 TEST_F(Batch, AFailureBeforeItGoesOnCounts) {
   write_scans(2);
   std::ofstream(folder_ / "broken.ply") << "no mesh";

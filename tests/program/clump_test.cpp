@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program that makes clumps, of one grain and of a sample.
+// The program that makes clumps and convex parts, of one grain and of a sample.
 
 #include <algorithm>
 #include <string>
@@ -71,6 +71,45 @@ TEST_F(ClumpProgram, TheFolderOfABatchWithSeveralNumbersOfNodesIsRefused) {
   EXPECT_EQ(run("clump scans -k 2 -o out -q").exit_code, 2);
   EXPECT_EQ(content("out/call.json"), call);
   EXPECT_FALSE(exists("out/grains.csv"));
+}
+
+TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
+  write_sample();
+  const std::string options = " -k 3 -n 60 -q --frame principal --density 2 ";
+  ASSERT_EQ(run("convex scans -o out --format urdf" + options).exit_code, 3);
+  ASSERT_EQ(run("convex scans/a.ply -o a.urdf --report a.csv" + options).exit_code, 0);
+  EXPECT_EQ(content("out/a.urdf"), content("a.urdf"));
+  EXPECT_NE(content("a_1.obj"), "");
+  EXPECT_EQ(content("out/a_1.obj"), content("a_1.obj"));
+  const std::string table = content("out/grains.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
+  EXPECT_NE(table.find("torn.ply,failed,"), std::string::npos) << table;
+  // The row is that of the report, but for the date.
+  const std::string row = content("a.csv").substr(content("a.csv").find("\r\n") + 2);
+  const std::string numbers = row.substr(row.find(",202") + 11);
+  EXPECT_NE(numbers.find(','), std::string::npos) << row;
+  EXPECT_NE(table.find(numbers), std::string::npos) << row;
+  // Cut within its second row, as by a kill; and in parts.
+  std::ofstream(folder_ / "out/grains.csv", std::ios::binary)
+      << table.substr(0, table.find("scans/b.ply") + 20);
+  std::filesystem::remove(folder_ / "out/b.urdf");
+  std::filesystem::remove(folder_ / "out/a.urdf");
+  ASSERT_EQ(run("convex scans -o out --format urdf -t 1" + options).exit_code, 3);
+  EXPECT_EQ(content("out/grains.csv"), table);
+  EXPECT_TRUE(exists("out/b.urdf"));
+  EXPECT_FALSE(exists("out/a.urdf")) << "it was done";
+  for (const std::string part : {"1/2", "2/2"}) {
+    ASSERT_LE(run("convex scans -o parts --format urdf --shard " + part + options).exit_code, 3);
+  }
+  ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv -o all.csv").exit_code, 0);
+  EXPECT_EQ(run("collect all.csv -o other.csv --report all.html").exit_code, 2);
+  EXPECT_EQ(content("all.csv"), table);
+  expect_refused("convex scans",
+                 {{"-o parts.obj", 2, "one folder with -o"},
+                  {"-o new --report r.html", 2, "Leave out --report"},
+                  {"-o new --format stl", 2, "ends in .obj"},
+                  {"-o out --format urdf -k 4", 2, "out/call.json"}},
+                 {"parts.obj", "new"});
 }
 
 TEST_F(ClumpProgram, WrongCallsAreRefused) {

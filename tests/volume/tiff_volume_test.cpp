@@ -110,7 +110,7 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
     stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=4\nhyperstack=true\n";
     write_tiff(path("a.tif"), stack, all);
     expect_refused("a.tif", {"2 channels", "--channel"});
-    expect_refused("a.tif", {"4 frames", "--frame"}, channel(1));
+    expect_refused("a.tif", {"4 frames", "--time"}, channel(1));
     VolumeChoice choice = channel(2);
     choice.frame = 3;
     EXPECT_EQ(labels_of("a.tif", choice), labels(2200)) << mode;
@@ -289,7 +289,7 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   TiffPages stack = as();
   stack.text = R"({"shape": [2, 3, 5, 7]})";
   write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"2 frames", "--frame"});
+  expect_refused("a.tif", {"2 frames", "--time"});
   EXPECT_EQ(labels_of("a.tif", frame(2)), labels(400));
   stack.text = R"({"shape": [2, 3, 5, 7], "axes": "CZYX"})";
   write_tiff(path("a.tif"), stack, all);

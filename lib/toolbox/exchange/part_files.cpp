@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/file_name.h"
@@ -134,6 +135,16 @@ Sentence inertia_warning(const std::string& path, const MassProperties& mass, do
          mention("size") + " or " + mention("scale") + " by " + format_number(units) + ", set " +
          mention("density", format_number(density / portable::pow(units, 3))) +
          ", and multiply gravity by " + format_number(units) + ".";
+}
+
+Sentence write_parts(const std::string& path, const PartsResult& result,
+                     const FrameOptions& options, double density) {
+  const SimulationFrame frame = simulation_frame(result.scan, options);
+  const MassProperties mass = in_frame(mass_properties(result.scan), frame);
+  ConvexParts parts = result.parts;
+  for (IndexedMesh& part : parts) part = in_frame(std::move(part), frame);
+  write_parts(path, parts, mass, density);
+  return inertia_warning(path, mass, density);
 }
 
 }  // namespace wscvt

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "toolbox/convex/convex_parts.h"
+#include "toolbox/convex/parts.h"
+#include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/sentence.h"
 #include "wscvt/measures/descriptors.h"
@@ -33,6 +35,10 @@ void check_part_file(const std::string& path);
 /// as check_part_file.
 void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
                  double density);
+
+/// Writes the parts of a grain in a frame. Returns a warning for the user, see inertia_warning.
+Sentence write_parts(const std::string& path, const PartsResult& result, const FrameOptions& frame,
+                     double density);
 
 /// Returns a warning with the unit to use if MuJoCo would refuse the inertia in a file of this
 /// name, else an empty text. `mass` as write_parts takes it, in metres.

@@ -24,8 +24,16 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+/// Returns the name of a grain without folders and endings.
+std::string word_of(const std::string& grain) {
+  fs::path name = fs::path(grain).filename();
+  if (ending_of(grain) == ".gz") name = name.stem();
+  return name.stem().string();
+}
+
 /// Refuses grains whose files would replace each other, or a scan.
-void check_files(const JobFolder& folder, const std::vector<std::string>& grains) {
+void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
+                 const std::vector<std::string>& grains) {
   std::map<std::string, const std::string*> made;
   for (const std::string& grain : grains) {
     const auto [other, is_new] = made.emplace(folder.file_of(grain), &grain);
@@ -33,7 +41,11 @@ void check_files(const JobFolder& folder, const std::vector<std::string>& grains
       refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be remeshed to \"" +
              other->first + "\". Use two batches, or rename one of them.");
     }
-    if (same_file(other->first, grain)) {
+    bool replaces_scan = same_file(other->first, grain);
+    for (const JobFiles& files : more) {
+      replaces_scan = replaces_scan || same_file(folder.file_of(grain, files), grain);
+    }
+    if (replaces_scan) {
       refuse("The remesh of \"" + grain + "\" would replace the scan. Give another folder with " +
              mention("output") + ", or another " + mention("format") + ".");
     }
@@ -103,12 +115,14 @@ class JobTables {
 };
 
 /// Removes half-written files of a killed job, for the grains from `first` on.
-void remove_parts(const JobFolder& whole, const std::vector<JobFolder>& folders,
+void remove_parts(const GrainJob& job, const std::vector<JobFolder>& folders,
                   const std::vector<std::string>& grains, std::size_t first) {
-  remove_partial_file(whole.file("call", ".json"));
   for (const JobFolder& folder : folders) {
     for (std::size_t k = first; k < grains.size(); ++k) {
       remove_partial_file(folder.file_of(grains[k]));
+      for (const JobFiles& files : job.more_files) {
+        remove_partial_file(folder.file_of(grains[k], files));
+      }
     }
     for (const char* ending : {".json", ".html"}) {
       remove_partial_file(folder.file("summary", ending));
@@ -147,10 +161,10 @@ JobFolder::JobFolder(fs::path folder, const std::string& ending, const Shard& sh
   }
 }
 
-std::string JobFolder::name_of(const std::string& grain) const {
-  fs::path name = fs::path(grain).filename();
-  if (ending_of(grain) == ".gz") name = name.stem();
-  return name.stem().string() + ending_;
+std::string JobFolder::name_of(const std::string& grain) const { return word_of(grain) + ending_; }
+
+std::string JobFolder::file_of(const std::string& grain, const JobFiles& files) const {
+  return (folder_ / files.folder / (word_of(grain) + "." + files.ending)).string();
 }
 
 std::string JobFolder::file_of(const std::string& grain) const {
@@ -179,13 +193,19 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   const std::vector<JobFolder> folders = folders_of(job);
   std::vector<std::string> names(grains.size());
   for (std::size_t k = 0; k < names.size(); ++k) names[k] = grains.name(k);
-  for (const JobFolder& folder : folders) check_files(folder, names);
+  for (const JobFolder& folder : folders) check_files(folder, job.more_files, names);
   std::error_code ignored;  // the first write into the folder reports it
   fs::create_directories(whole.path(), ignored);
   check_call(whole, job.call);
-  for (const JobFolder& folder : folders) fs::create_directories(folder.path(), ignored);
+  for (const JobFolder& folder : folders) {
+    fs::create_directories(folder.path(), ignored);
+    for (const JobFiles& files : job.more_files) {
+      fs::create_directories(fs::path(folder.path()) / files.folder, ignored);
+    }
+  }
   JobTables tables(folders, job.tables, names);
-  remove_parts(whole, folders, names, tables.rows());
+  remove_partial_file(whole.file("call", ".json"));
+  remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {
     const std::string census =
         grains.census([&](const std::string& grain) { return folders.front().name_of(grain); });

@@ -14,6 +14,12 @@
 
 namespace wscvt {
 
+/// A file of each grain in a folder of its kind.
+struct JobFiles {
+  std::string folder;  ///< inside the folder of the job or the level
+  std::string ending;  ///< without the point
+};
+
 /// Names of the files of a job in one folder: a file per grain, and tables. The names of the tables
 /// of a part of a sample end in "-I-of-N".
 class JobFolder {
@@ -24,6 +30,7 @@ class JobFolder {
   std::string path() const { return folder_.string(); }
   /// Path of the file of a grain.
   std::string file_of(const std::string& grain) const;
+  std::string file_of(const std::string& grain, const JobFiles& files) const;
   /// Name of the file of a grain, without the folder.
   std::string name_of(const std::string& grain) const;
   /// Path of a table or a summary: "grains", ".csv".
@@ -32,7 +39,7 @@ class JobFolder {
 
  private:
   std::filesystem::path folder_;
-  std::string ending_;
+  std::string ending_;  ///< with the point
   std::string part_;
 };
 
@@ -61,6 +68,7 @@ struct GrainJob {
   std::string folder;
   Shard shard;         ///< of which the source has the grains
   std::string ending;  ///< of the files of grains, without the point
+  std::vector<JobFiles> more_files;
   /// Folders in the folder, such as n100, each with all files and tables. Empty: no such folders.
   std::vector<std::string> levels;
   std::string call;              ///< options that must be equal when the job is started again; JSON

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -246,13 +245,6 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   page.add_lines(clump_lines(clump));
   page.add_html(figures.views);
   return page.text();
-}
-
-bool is_clump_table(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  return std::getline(stream, line) && line.rfind("grain,status,error", 0) == 0 &&
-         line.find(",first_contact.clump.mean_percent,") != std::string::npos;
 }
 
 void check_clump_report(const std::string& path) {

@@ -25,9 +25,6 @@ std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin = {})
 std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
                        const Execution& execution);
 
-/// Whether a file begins like a table of clumps, with a row per grain. False if it cannot be read.
-bool is_clump_table(const std::string& path);
-
 /// Like check_remesh_report.
 void check_clump_report(const std::string& path);
 

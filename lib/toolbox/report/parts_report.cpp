@@ -94,13 +94,9 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   return page.text();
 }
 
-namespace {
-
 std::string parts_csv(const PartsResult& result, const ReportOrigin& origin) {
   return csv_of(Json::parse(parts_json(result, origin)));
 }
-
-}  // namespace
 
 void check_parts_report(const std::string& path) {
   if (report_format(path) == ReportFormat::Row) {

@@ -16,6 +16,9 @@ std::vector<std::string> parts_lines(const PartsResult& result);
 /// Returns a JSON document; see report_json.
 std::string parts_json(const PartsResult& result, const ReportOrigin& origin = {});
 
+/// Returns CSV with a header and a row, like report_csv. The columns do not depend on the parts.
+std::string parts_csv(const PartsResult& result, const ReportOrigin& origin = {});
+
 /// Returns an HTML report: the grain, the parts, and the parts with their distance to the grain in
 /// colour.
 std::string parts_html(const PartsResult& result, const ReportOrigin& origin,

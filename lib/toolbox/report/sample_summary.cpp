@@ -143,6 +143,13 @@ std::string warned_line(const SampleSummary& summary) {
 
 }  // namespace
 
+bool is_without_summary(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  return std::getline(stream, line) && line.rfind("grain,status,error,", 0) == 0 &&
+         line.find(",options.method,") == std::string::npos;
+}
+
 SampleSummary summarise_table(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {

@@ -39,6 +39,10 @@ struct SampleSummary {
 /// Max. number of failures, and of grains with warnings, that a summary names.
 inline constexpr std::size_t most_failures_named = 100;
 
+/// Whether a file begins like a table with a row per grain that is not of remeshes, but for example
+/// of shapes or clumps, and has no summary. False if it cannot be read.
+bool is_without_summary(const std::string& path);
+
 /// Reads a whole table. Needs memory for 12 numbers per grain. Throws Error(InvalidInput) if the
 /// file is not such a table or ends within a row, Error(InputOutput).
 SampleSummary summarise_table(const std::string& path);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/report/shape_table.h"
 
-#include <fstream>
 #include <utility>
 #include <vector>
 
 #include "toolbox/sample/grain_table.h"
-#include "wscvt/base/csv_reader.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 
@@ -87,13 +85,6 @@ std::vector<std::string> columns_of(const ShapeMeasures& measures) {
 }
 
 }  // namespace
-
-bool is_shape_table(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  CsvReader reader(stream);
-  std::vector<std::string> fields;
-  return reader.next(fields) && fields.size() > 3 && fields[0] == "grain" && fields[3] == "file";
-}
 
 std::string shape_header(const ShapeMeasures& measures) { return csv_record(columns_of(measures)); }
 

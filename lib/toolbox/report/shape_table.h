@@ -54,9 +54,6 @@ struct GrainShape {
 // list_descriptors, the principal frame (centroid, principal moments at unit density, unit
 // quaternion) and the quality of the mesh.
 
-/// Whether a file begins like a table of shapes. False if it cannot be read.
-bool is_shape_table(const std::string& path);
-
 /// Returns the first record.
 std::string shape_header(const ShapeMeasures& measures);
 

@@ -48,7 +48,7 @@ inline constexpr FlagOption parts_option = {"parts", "make each part of a label 
 inline constexpr NumberOption<std::int64_t> channel_option = {
     "channel", "channel of a file that has several", 1, 1000000};
 inline constexpr NumberOption<std::int64_t> frame_option = {
-    "frame", "frame (point in time) of a file that has several", 1, 1000000};
+    "time", "point in time (frame) of a file that has several", 1, 1000000};
 inline constexpr NumberOption<double> voxel_size_option = {"voxel-size", "size of a voxel", 0.0,
                                                            std::numeric_limits<double>::infinity(),
                                                            Ends::NotMinimum};

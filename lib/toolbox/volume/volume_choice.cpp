@@ -49,16 +49,17 @@ std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
                           const std::string& path) {
   const bool is_channel = axis.kind == AxisKind::Channel;
   const std::string name = is_channel ? "channel" : "frame";
+  const Sentence option = mention(is_channel ? "channel" : "time");
   const std::optional<std::int64_t>& chosen = is_channel ? choice.channel : choice.frame;
   const std::string has = "has " + std::to_string(axis.count) + " " + name;
   if (!chosen) {
     if (axis.count == 1) return 0;
-    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by --" + name +
+    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by " + option +
                             ", from 1 to " + std::to_string(axis.count) + ".");
   }
   if (*chosen < 1 || *chosen > axis.count) {
     refuse_volume(path, has + (axis.count == 1 ? "" : "s") + ", not a " + name + " " +
-                            std::to_string(*chosen) + ". Correct --" + name + ".");
+                            std::to_string(*chosen) + ". Correct " + option + ".");
   }
   return *chosen - 1;
 }
