@@ -21,6 +21,7 @@ void bind_clump(pybind11::module_& module);
 void bind_files(pybind11::module_& module);
 void bind_sample(pybind11::module_& module);
 void bind_grow(pybind11::module_& module);
+void bind_job(pybind11::module_& module);
 
 }  // namespace wscvt::python
 

@@ -23,4 +23,5 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_files(module);
   wscvt::python::bind_sample(module);
   wscvt::python::bind_grow(module);
+  wscvt::python::bind_job(module);
 }

@@ -454,6 +454,53 @@ def test_a_batch_is_its_grains_in_order_and_errors_are_results(scan, tmp_path):
         list(wscvt.batch([small], nodse=60))
 
 
+def test_a_batch_into_a_folder_is_that_of_the_program(scan, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    small = wscvt.remesh(*scan, nodes=300)
+    (tmp_path / "scans").mkdir()
+    for name in ("a.ply", "b.stl"):
+        wscvt.write_mesh(tmp_path / "scans" / name, small)
+    (tmp_path / "scans" / "c.ply").write_text("no mesh")
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "batch", "scans", "-o", "program", "-q", "-n", "60,80",
+                    "--describe", "remesh", "--frame", "principal", "--size", "2", "--node-table", "csv",
+                    "--sdf", "npy", "--sdf-spacing", "0.2"], check=False)
+    same = dict(describe="remesh", frame="principal", size=2.0, node_table=["csv"], sdf=["npy"],
+                sdf_spacing=0.2)
+    seen = []
+    with pytest.warns(UserWarning, match="scans/c.ply"):
+        counts = wscvt.batch("scans", [80, 60], output="python", threads=1,
+                             progress=lambda fraction, stage: seen.append((fraction, stage)), **same)
+    assert counts == {"grains": 3, "failed": 1}
+    assert seen[-1][1].endswith(" of 3 grains")
+
+    def files(folder):
+        return {path.relative_to(folder): path.read_bytes()
+                for path in pathlib.Path(folder).rglob("*") if path.is_file()}
+
+    made = files("program")
+    assert pathlib.Path("n60/sdf/b.npy") in made and pathlib.Path("n80/mass.csv") in made
+    assert files("python") == made
+    # It goes on where it was cut, and takes parts; a cancelled one stops.
+    table = tmp_path / "python/n60/grains.csv"
+    table.write_bytes(table.read_bytes()[:-40])
+    with pytest.warns(UserWarning, match="c.ply"):
+        wscvt.batch(["scans"], [60, 80], output="python", **same)
+    assert files("python") == made
+    for part in ("1/2", "2/2"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            wscvt.batch("scans", 60, output="parts", shard=part, describe="none")
+    rows = sorted(row for part in (1, 2)
+                  for row in (tmp_path / f"parts/grains-{part}-of-2.csv").read_text().splitlines()[1:])
+    assert [row.split(",")[0] for row in rows] == ["scans/a.ply", "scans/b.stl", "scans/c.ply"]
+    with pytest.raises(wscvt.Error, match="other options"):
+        wscvt.batch("scans", [60, 80], output="python", describe="none")
+    with pytest.raises(wscvt.Error, match="(?i)cancelled"):
+        wscvt.batch("scans", 60, output="cancelled", progress=lambda fraction, stage: False)
+    with pytest.raises(TypeError, match="nodse"):
+        wscvt.batch("scans", output="wrong", nodse=60)
+
+
 def test_a_batch_reads_a_few_in_advance_and_ends_where_it_is_left(scan):
     asked = []
 

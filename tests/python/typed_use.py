@@ -47,6 +47,8 @@ def check(scan: pathlib.Path) -> None:
     made: Iterator[Tuple[str, Union[wscvt.Remesh, wscvt.Error]]] = wscvt.batch(scan, 500, threads=2)
     wscvt.batch({"one": (vertices, faces), "two": "scan.ply"}, alpha=0.5)
     wscvt.batch([scan, TrimeshLike()])
+    counts: Dict[str, int] = wscvt.batch(scan, [100, 500], output="out", node_table=["csv"], shard="1/2")
+    wscvt.batch([scan], 500, output=pathlib.Path("out"), frame="principal", alpha=0.5)
     for label, mesh in wscvt.extract(np.zeros((3, 3, 3), dtype=int), 0.5, smallest=10).items():
         wscvt.write_mesh(f"{label}.ply", *mesh)
     distances: npt.NDArray[np.float64] = wscvt.signed_distances(vertices, result)
@@ -64,7 +66,7 @@ def check(scan: pathlib.Path) -> None:
     wscvt.remesh(scan, nodes="many")  # type: ignore[arg-type]
     wscvt.remesh(scan, weighting="area of cells")  # type: ignore[arg-type]
     wscvt.remesh(scan, progress=lambda fraction: True)  # type: ignore
-    wscvt.batch(scan, 500, progress=progress)  # type: ignore[call-arg]
+    wscvt.batch(scan, 500, progress=progress)  # type: ignore[call-overload]
     wscvt.extract(vertices, "large")  # type: ignore[arg-type]
     result.node_table(frame="tilted")  # type: ignore[arg-type]
     result.vertices = vertices  # type: ignore[misc]

@@ -94,8 +94,9 @@ def create(surface, **options):
     return _wscvt.create(surface, **options)
 
 
-def batch(scans, nodes=None, *, threads=0, **options):
-    """Remeshes many grains, one per thread, and yields (name, Remesh) in the order of the scans.
+def batch(scans, nodes=None, *, output=None, threads=0, **options):
+    """Remeshes many grains, one per thread, and yields (name, Remesh) in the order of the scans. Or
+    remeshes files into a folder, as "wscvt batch" does.
 
     for name, result in wscvt.batch("scans", 500):
         if not isinstance(result, wscvt.Error):
@@ -109,7 +110,43 @@ def batch(scans, nodes=None, *, threads=0, **options):
 
     A grain that fails yields its Error instead of a Remesh. TypeError is raised. A few grains are
     read and remeshed in advance. Leaving the loop cancels them.
+
+    wscvt.batch("scans", [100, 500], output="out", frame="principal", node_table=["csv"])
+
+    output: folder of the meshes, grains.csv, shape.csv and the summary, with the bytes of "wscvt
+        batch". After an interruption, the same call continues.
+    scans: then one or more files, folders, patterns, or "@FILE" with one of these per line. For
+        volumes use the program.
+    nodes: then one number, or a list of numbers, each with a folder of its own.
+    shard: "I/N" takes part I of N of the grains, by their names.
+    format: ending of the meshes, "ply" by default.
+    describe: "both" (default), "scan", "remesh" or "none": the columns of shape.csv.
+    contacts: measure errors of first contact. Off by default.
+    seconds: a column with the run time of each grain. Off by default.
+    frame: of the meshes and of the files below: "input" (default), "centred" or "principal".
+    size: equivalent diameter of each grain in these files. scale: factor of all lengths.
+    node_table: endings of files of nodes in output/node-table: "csv", "vtp", "shp".
+    sdf: endings of files of signed distances in output/sdf: "npy", "vti", "json".
+    sdf_surface: "scan" (default) or "remesh".
+    sdf_spacing: length between the grid's points; 0, the default, chooses one.
+    progress: as for remesh.
+
+    Returns a dictionary with the numbers of "grains" and of those that "failed", which also are
+    UserWarnings. Raises Error if nothing can be begun or the machine refuses to go on.
     """
+    if output is not None:
+        if isinstance(scans, (str, os.PathLike)):
+            scans = [scans]
+        if not isinstance(nodes, numbers.Integral) and nodes is not None:
+            options["levels"] = sorted(nodes)
+            nodes = options["levels"][-1]
+        if nodes is not None:
+            options["nodes"] = nodes
+        return _wscvt._batch([os.fspath(scan) for scan in scans], output, threads=threads, **options)
+    return _batch(scans, nodes, threads, options)
+
+
+def _batch(scans, nodes, threads, options):
     options.setdefault("keep_scan", False)
     is_left = threading.Event()
 
