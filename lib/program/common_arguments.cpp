@@ -33,12 +33,6 @@ void add_format_argument(CLI::App& app, std::string& format) {
       ->type_name("NAME");
 }
 
-void check_format(const std::string& format) {
-  if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
-  refuse("The format of the meshes is \"" + format + "\". Give --format one of " +
-         mesh_extensions(MeshUse::Write) + ", without the point.");
-}
-
 void check_mesh_input(const std::string& path) {
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);

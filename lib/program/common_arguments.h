@@ -38,9 +38,6 @@ void add_quiet_argument(CLI::App& app, bool& quiet);
 /// Adds --format, the ending of many meshes.
 void add_format_argument(CLI::App& app, std::string& format);
 
-/// Throws wscvt::Error(InvalidInput) for an ending that is no mesh format.
-void check_format(const std::string& format);
-
 /// Throws wscvt::Error(InvalidInput) for an input that is not a mesh, with the command for it: a
 /// volume, a folder, another ending.
 void check_mesh_input(const std::string& path);

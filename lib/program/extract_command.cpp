@@ -12,6 +12,7 @@
 #include "exit_code.h"
 #include "job_on_terminal.h"
 #include "signals.h"
+#include "toolbox/job/grain_files.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
 #include "work.h"

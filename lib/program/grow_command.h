@@ -5,22 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/sample/grow_options.h"
-#include "wscvt/surface/surface_options.h"
+#include "toolbox/job/grow_job.h"
 
 namespace wscvt::program {
 
 /// `wscvt grow`: makes virtual grains with the statistics of a sample.
 struct GrowArguments {
   std::vector<std::string> inputs;
-  std::string folder;
-  std::string format = "ply";
   std::string sizes;  ///< file of a size curve; empty: sizes of the sample
-  bool coefficients = false;
-  int grains = 1000;
-  int nodes = 500;
-  int degree = usual_harmonic_degree;
-  GrowOptions options;
+  GrowJob job;
   int threads = 0;
   bool quiet = false;
 };

@@ -35,7 +35,8 @@ std::string progress_text(std::size_t done, std::size_t count, std::size_t faile
   return text;
 }
 
-/// Runs on many grains, with a progress line on a terminal unless quiet. Signals cancel it.
+}  // namespace
+
 JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const JobHost&)>& run) {
   using Clock = std::chrono::steady_clock;
   note_signals();
@@ -64,8 +65,6 @@ JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const Job
   }
   return end;
 }
-
-}  // namespace
 
 JobEnd run_grains(const GrainRun& run, int threads, bool quiet) {
   return on_terminal(threads, quiet,

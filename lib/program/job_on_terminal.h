@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+
 #include "toolbox/job/grain_job.h"
 
 namespace wscvt::program {
 
 // Work on many grains, with a progress line on a terminal unless quiet. Failures are printed to the
 // standard error, and so is a run that a signal cancelled. `threads`: 0 uses all.
+
+JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const JobHost&)>& run);
 
 JobEnd run_grains(const GrainRun& run, int threads, bool quiet);
 

@@ -113,10 +113,10 @@ std::size_t read_each(const std::vector<std::string>& files, int threads, bool q
   return end.failed;
 }
 
-SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
-                         int threads, bool quiet) {
+RealGrains read_shapes(const std::vector<std::string>& files, const SampleGrids& grids, int threads,
+                       bool quiet) {
   std::vector<std::optional<SampleGrain>> read(files.size());
-  SampleShapes shapes;
+  RealGrains shapes;
   shapes.left_out = read_each(files, threads, quiet, [&](std::size_t k, const Execution& one) {
     read[k] = read_shape(files[k], grids, one);
   });

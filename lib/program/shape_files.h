@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/sample/sample_grain.h"
+#include "toolbox/job/grow_job.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/surface/harmonic_surface.h"
 
@@ -31,16 +31,9 @@ std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path);
 std::size_t read_each(const std::vector<std::string>& files, int threads, bool quiet,
                       const std::function<void(std::size_t file, const Execution&)>& read);
 
-/// Grains of a sample that could be read.
-struct SampleShapes {
-  std::vector<SampleGrain> grains;
-  std::vector<std::string> files;  ///< one per grain
-  std::size_t left_out = 0;        ///< grains that failed, with a message on the standard error
-};
-
 /// Reads the grains, with a progress line on a terminal unless quiet. Throws wscvt::Error, also
 /// Cancelled, for errors that do not concern one grain.
-SampleShapes read_shapes(const std::vector<std::string>& files, const SampleGrids& grids,
-                         int threads, bool quiet);
+RealGrains read_shapes(const std::vector<std::string>& files, const SampleGrids& grids, int threads,
+                       bool quiet);
 
 }  // namespace wscvt::program

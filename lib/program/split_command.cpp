@@ -8,6 +8,7 @@
 #include "command.h"
 #include "exit_code.h"
 #include "output_paths.h"
+#include "toolbox/job/grain_files.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"

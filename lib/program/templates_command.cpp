@@ -17,6 +17,7 @@
 #include "signals.h"
 #include "toolbox/clump/clump_fit.h"
 #include "toolbox/exchange/template_files.h"
+#include "toolbox/job/grain_files.h"
 #include "toolbox/sample/grow_options.h"
 #include "work.h"
 #include "wrong_call.h"

@@ -124,6 +124,12 @@ std::vector<std::string> grain_files(const std::vector<std::string>& inputs,
   return files;
 }
 
+void check_format(const std::string& ending) {
+  if (is_mesh_format("mesh." + ending, MeshUse::Write)) return;
+  refuse("The format of the meshes is \"" + ending + "\". Give " + mention("format") + " one of " +
+         mesh_extensions(MeshUse::Write) + ", without the point.");
+}
+
 Shard shard_of(std::string_view text) {
   const std::size_t slash = text.find('/');
   if (slash == std::string_view::npos) {

@@ -19,6 +19,9 @@ std::vector<std::string> grain_files(const std::vector<std::string>& inputs,
 /// Returns whether an input of a job is a folder, a pattern or a list.
 bool names_files(const std::string& input);
 
+/// Throws Error(InvalidInput) for an ending of files, without the point, that is none of a mesh.
+void check_format(const std::string& ending);
+
 /// Part `index`, from 1, of `count` parts of a sample.
 struct Shard {
   int index = 1;

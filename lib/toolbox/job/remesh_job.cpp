@@ -209,10 +209,7 @@ void check_job(const RemeshJob& job) {
            " does not write this file. Use " + mention("describe", "remesh") + ", or leave out " +
            mention("contacts") + ".");
   }
-  if (!is_mesh_format("mesh." + job.format, MeshUse::Write)) {
-    refuse("The format of the meshes is \"" + job.format + "\". Give " + mention("format") +
-           " one of " + mesh_extensions(MeshUse::Write) + ", without the point.");
-  }
+  check_format(job.format);
   check_simulation_options(job.simulation);
   for (const std::string& ending : job.node_tables) {
     check_nodes_path("nodes." + ending, job.simulation);

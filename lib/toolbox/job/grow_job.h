@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "toolbox/job/grain_run.h"
+#include "toolbox/sample/given_sizes.h"
+#include "toolbox/sample/grow_options.h"
+#include "toolbox/sample/sample_grain.h"
+#include "wscvt/surface/surface_options.h"
+
+namespace wscvt {
+
+inline constexpr NumberOption<int> grown_count_option = {"grains", "number of grains", 1, 10000000};
+inline constexpr NumberOption<int> grown_nodes_option = {"nodes",    "number of nodes", 12, 1000000,
+                                                         Ends::Both, "of each mesh"};
+
+/// Virtual grains with the statistics of a sample, as files in a folder.
+struct GrowJob {
+  std::string folder;  ///< exists
+  int grains = 1000;
+  int nodes = 500;                     ///< of each mesh
+  std::string format = "ply";          ///< ending of the meshes
+  bool coefficients = false;           ///< files of SH coefficients instead of meshes
+  int degree = usual_harmonic_degree;  ///< of the SH series of the real grains
+  GrowOptions options;
+  std::optional<GivenSizes> sizes;  ///< empty: those of the sample
+};
+
+/// The real grains.
+struct RealGrains {
+  std::vector<SampleGrain> grains;  ///< of the job's degree
+  std::vector<std::string> files;   ///< one per grain
+  std::size_t left_out = 0;         ///< grains that could not be read
+};
+
+/// Result of the job.
+struct GrownSample {
+  JobEnd end;
+  std::vector<std::string> lines;  ///< for a log; empty if cancelled
+};
+
+/// Throws Error(InvalidInput) for options out of range.
+void check_job(const GrowJob& job);
+
+/// Makes the grains: a file each, grown.csv with a row each, and for .ply a script for Yade. The
+/// bytes do not depend on the number of threads. Throws as run_grains and GrainGrower.
+GrownSample grow_grains(const GrowJob& job, RealGrains real, const SampleGrids& grids,
+                        const JobHost& host);
+
+}  // namespace wscvt
