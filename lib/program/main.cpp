@@ -28,6 +28,7 @@
 #include "describe_command.h"
 #include "exit_code.h"
 #include "extract_command.h"
+#include "fabric_command.h"
 #include "fragment_command.h"
 #include "grow_command.h"
 #include "man_pages.h"
@@ -77,7 +78,7 @@ int run(int argc, char** argv) {
       make_command<program::SplitArguments>(app),    make_command<program::SampleArguments>(app),
       make_command<program::GrowArguments>(app),     make_command<program::TemplatesArguments>(app),
       make_command<program::ClumpArguments>(app),    make_command<program::ConvexArguments>(app),
-      make_command<program::FragmentArguments>(app),
+      make_command<program::FragmentArguments>(app), make_command<program::FabricArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed like the version

@@ -79,19 +79,22 @@ void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string
       ->group(heading);
 }
 
+void add_background_argument(CLI::App& app, double& background, const std::string& heading) {
+  add_typed(app, name_of(background_option.key),
+            [&background](std::string_view text) {
+              background = lower_case(text) == "nan" ? std::numeric_limits<double>::quiet_NaN()
+                                                     : from_typed(text, background_option);
+            })
+      ->description(help_of(background, background_option))
+      ->type_name("N")
+      ->group(heading);
+}
+
 void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading) {
   add_number(app, name_of(smallest_option.key), options.smallest, smallest_option)->group(heading);
   add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
       ->group(heading);
-  add_typed(app, name_of(background_option.key),
-            [&options](std::string_view text) {
-              options.background = lower_case(text) == "nan"
-                                       ? std::numeric_limits<double>::quiet_NaN()
-                                       : from_typed(text, background_option);
-            })
-      ->description(help_of(options.background, background_option))
-      ->type_name("N")
-      ->group(heading);
+  add_background_argument(app, options.background, heading);
   app.add_flag(name_of(at_border_option.key), options.at_border,
                help_of(options.at_border, at_border_option))
       ->group(heading);

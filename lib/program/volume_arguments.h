@@ -16,6 +16,9 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
 /// Adds only the choice of data in a voxel file, and the voxel size.
 void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string& heading);
 
+/// Adds only the number of the background.
+void add_background_argument(CLI::App& app, double& background, const std::string& heading);
+
 /// Opens a volume and finds its labels, with a progress line on a terminal unless quiet. A signal
 /// cancels. Throws as LabelGrains.
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,

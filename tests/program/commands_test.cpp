@@ -255,10 +255,13 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   }
   test::MadeVolume volume({30, 30, 30});
   volume.fill_ball(1, {15, 15, 15}, 10.0);
-  test::write_bytes(folder_ / "labels.nrrd", test::nrrd(volume, "spacings: 1 1 1\n"));
-  for (const char* name : {"labels.tif", "mask.tif", "scan.tif"}) {
-    test::write_bytes(folder_ / name, test::tiff(volume, 0, 30));
-  }
+  test::MadeVolume labels = volume;
+  labels.fill_ball(2, {24, 24, 15}, 4.5);
+  test::write_bytes(folder_ / "labels.nrrd", test::nrrd(labels, "spacings: 1 1 1\n"));
+  test::write_bytes(folder_ / "labels.tif", test::tiff(labels, 0, 30));
+  for (std::uint32_t& value : labels.labels) value = value == 0 ? 0 : 1;
+  test::write_bytes(folder_ / "scan.tif", test::tiff(labels, 0, 30));
+  test::write_bytes(folder_ / "mask.tif", test::tiff(volume, 0, 30));
   fs::create_directory(folder_ / "slices");
   for (int z = 0; z < 30; ++z) {
     test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/fabric/fabric.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/cancelled_runs.h"
+#include "support/page_tables.h"
+#include "support/volume_folder.h"
+#include "toolbox/fabric/fabric_files.h"
+#include "toolbox/fabric/fabric_page.h"
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt {
+namespace {
+
+using test::MadeVolume;
+
+double angle_between(const Vector3& a, const Vector3& b) {
+  return std::acos(std::clamp(a.normalized().dot(b.normalized()), -1.0, 1.0)) * 180.0 / pi;
+}
+
+/// Two balls that overlap: each voxel is in the ball whose surface it is deeper below, so the
+/// border is the plane of the disc.
+struct TwoBalls {
+  Vector3 a, b;
+  double radius_a, radius_b;
+
+  Vector3 normal() const { return (b - a).normalized(); }
+  /// From `a` to the plane of the disc.
+  double to_plane() const {
+    const double d = (b - a).norm();
+    return (d * d + radius_a * radius_a - radius_b * radius_b) / (2.0 * d);
+  }
+  Vector3 centre() const { return a + to_plane() * normal(); }
+  double area() const { return pi * (radius_a * radius_a - to_plane() * to_plane()); }
+
+  MadeVolume voxels(const std::array<int, 3>& counts, const Vector3& spacing) const {
+    MadeVolume made(counts);
+    const auto power = [&](const Vector3& p, const Vector3& centre, double radius) {
+      return (p.cwiseProduct(spacing) - centre).squaredNorm() - radius * radius;
+    };
+    made.fill(1, [&](const Vector3& p) {
+      const double to_a = power(p, a, radius_a);
+      return to_a < 0.0 && to_a <= power(p, b, radius_b);
+    });
+    made.fill(2, [&](const Vector3& p) {
+      const double to_b = power(p, b, radius_b);
+      return to_b < 0.0 && to_b < power(p, a, radius_a);
+    });
+    return made;
+  }
+};
+
+class FabricOfAFile : public test::VolumeFolder {
+ protected:
+  void write_labels(const MadeVolume& made, const std::string& name = "labels.nrrd",
+                    const std::string& spacings = "1 1 1") const {
+    write(name,
+          test::nrrd(made, "spacings: " + spacings + "\nspace units: \"mm\" \"mm\" \"mm\"\n"));
+  }
+  Fabric measured(const std::string& labels, const std::string& scan = "", double background = 0.0,
+                  int threads = 1) const {
+    const auto volume = open_volume(path(labels));
+    FabricOptions options;
+    options.background = background;
+    std::unique_ptr<LabelVolume> greys;
+    if (!scan.empty()) greys = open_volume(path(scan));
+    options.scan = greys.get();
+    return measure_fabric(*volume, options, Execution(threads));
+  }
+  Fabric measured(const MadeVolume& made, const std::string& spacings = "1 1 1") const {
+    write_labels(made, "labels.nrrd", spacings);
+    return measured("labels.nrrd");
+  }
+  /// Balls in a row, with labels that are not in the order of their places, and one at the border.
+  static MadeVolume chain() {
+    MadeVolume made({64, 30, 30});
+    made.fill_ball(7, {2, 15, 15}, 9.0);
+    made.fill_ball(3, {18.6, 15.4, 15}, 9.0);
+    made.fill_ball(12, {36.1, 14, 15.7}, 9.6);
+    made.fill_ball(5, {51, 16, 14}, 8.0);
+    return made;
+  }
+};
+
+TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
+  std::mt19937 random(20);
+  std::normal_distribution<double> normal;
+  std::vector<double> ratios;
+  std::vector<double> errors;
+  for (int k = 0; k < 24; ++k) {
+    const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
+    const Vector3 middle(32.3, 31.8, 32.1);
+    const TwoBalls balls{middle - 14.0 * n, middle + 13.0 * n, 15.5, 14.0};
+    const Fabric fabric = measured(balls.voxels({64, 64, 64}, Vector3::Ones()));
+    ASSERT_EQ(fabric.contacts.size(), 1U);
+    const FabricContact& contact = fabric.contacts[0];
+    EXPECT_TRUE(contact.is_contact);
+    EXPECT_EQ(fabric.grains[contact.first].label, 1U);
+    ratios.push_back(contact.area / balls.area());
+    errors.push_back(angle_between(contact.normal, balls.normal()));
+    EXPECT_LT((contact.centre - balls.centre()).norm(), 3.0 * contact.centre_uncertainty + 0.1);
+    EXPECT_GT(contact.raw_area, balls.area());
+    // Balls of 1 % discretization.
+    EXPECT_LT((contact.branch - (balls.b - balls.a)).norm(), 0.7);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  std::sort(errors.begin(), errors.end());
+  // As in the study: single areas within 15 %, their median within 3; normals by the median 1.5.
+  EXPECT_NEAR(ratios[12], 1.0, 0.03);
+  EXPECT_GT(ratios.front(), 0.85);
+  EXPECT_LT(ratios.back(), 1.15);
+  EXPECT_LT(errors[12], 1.5);
+}
+
+TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
+  std::mt19937 random(21);
+  std::normal_distribution<double> normal;
+  int touching = 0;
+  for (int k = 0; k < 30; ++k) {
+    const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
+    const Vector3 middle(32.3, 31.8, 32.1);
+    MadeVolume made({64, 64, 64});
+    made.fill_ball(1, middle - 14.2 * n, 14.0);
+    made.fill_ball(2, middle + 14.2 * n, 14.0);
+    const Fabric fabric = measured(made);
+    for (const FabricContact& contact : fabric.contacts) {
+      ++touching;
+      EXPECT_GT(contact.raw_area, 0.0);
+      EXPECT_FALSE(contact.is_contact) << n.transpose();
+      EXPECT_LT(contact.area, 0.0);
+    }
+    EXPECT_EQ(fabric.contact_count, 0U);
+  }
+  EXPECT_GT(touching, 5);
+}
+
+TEST_F(FabricOfAFile, MeasuresFlatWallsExactly) {
+  // Two half spaces, the wall across each axis, voxels of three lengths.
+  for (int axis = 0; axis < 3; ++axis) {
+    MadeVolume made({20, 22, 24});
+    made.fill(4, [&](const Vector3& p) { return p[axis] < 9.0; });
+    made.fill(9, [&](const Vector3& p) { return p[axis] > 9.0; });
+    const Vector3 spacing(0.5, 1.0, 2.0);
+    const Fabric fabric = measured(made, "0.5 1 2");
+    ASSERT_EQ(fabric.contacts.size(), 1U);
+    const FabricContact& contact = fabric.contacts[0];
+    double area = 1.0;
+    for (int k = 0; k < 3; ++k) {
+      if (k != axis) area *= spacing[k] * made.counts[static_cast<std::size_t>(k)];
+    }
+    EXPECT_NEAR(contact.raw_area, area, 1e-9 * area);
+    EXPECT_NEAR(contact.area, area, 1e-9 * area);
+    EXPECT_NEAR(contact.normal[axis], 1.0, 1e-12);
+    EXPECT_TRUE(contact.at_border);
+    EXPECT_EQ(fabric.whole_grains, 0U);
+    EXPECT_EQ(fabric.geometry.unit, "mm");
+    // F has one direction: 15/2 (1 - 1/3, -1/3, -1/3), whose norm is 15/2 sqrt(2/3).
+    EXPECT_NEAR(anisotropy_of(fabric.tensor), 7.5, 1e-9);
+  }
+}
+
+TEST_F(FabricOfAFile, TakesVoxelsThatAreNoCubes) {
+  const Vector3 spacing(0.4, 0.5, 0.7);
+  std::vector<double> ratios;
+  for (const Vector3& direction : {Vector3(1.0, 2.0, 2.0), Vector3(-2.0, 1.0, 0.5),
+                                   Vector3(0.3, -1.0, 1.4), Vector3(1.0, 1.0, -0.2)}) {
+    const Vector3 n = direction.normalized();
+    const Vector3 middle(16.1, 16.2, 16.3);
+    const TwoBalls balls{middle - 7.0 * n, middle + 6.5 * n, 7.8, 7.1};
+    const Fabric fabric = measured(balls.voxels({80, 64, 46}, spacing), "0.4 0.5 0.7");
+    ASSERT_EQ(fabric.contacts.size(), 1U);
+    ratios.push_back(fabric.contacts[0].area / balls.area());
+    EXPECT_LT(angle_between(fabric.contacts[0].normal, balls.normal()), 3.0);
+    EXPECT_NEAR(fabric.grains[0].volume, 4.0 / 3.0 * pi * std::pow(7.8, 3), 40.0);
+    EXPECT_LT((fabric.contacts[0].centre - balls.centre() + 0.0 * spacing).norm(), 0.5);
+  }
+  for (const double ratio : ratios) EXPECT_NEAR(ratio, 1.0, 0.15);
+}
+
+TEST_F(FabricOfAFile, CountsContactsOfAChain) {
+  const Fabric fabric = measured(chain());
+  ASSERT_EQ(fabric.grains.size(), 4U);
+  const std::vector<Label> labels = {3, 5, 7, 12};
+  const std::vector<std::size_t> contacts = {2, 1, 1, 2};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(fabric.grains[k].label, labels[k]);
+    EXPECT_EQ(fabric.grains[k].contacts, contacts[k]) << labels[k];
+    EXPECT_EQ(fabric.grains[k].at_border, labels[k] == 7);
+  }
+  EXPECT_EQ(fabric.whole_grains, 3U);
+  EXPECT_NEAR(fabric.coordination, 5.0 / 3.0, 1e-12);
+  EXPECT_EQ(fabric.contact_count, 3U);
+  EXPECT_NEAR(fabric.tensor.trace(), 1.0, 1e-12);
+  EXPECT_GT(fabric.tensor(0, 0), 0.9);
+  for (const FabricContact& contact : fabric.contacts) {
+    EXPECT_GT(contact.normal.dot(contact.branch), 0.0);
+    EXPECT_EQ(contact.at_border, fabric.grains[contact.second].label == 7);
+  }
+  // Directions spread evenly have no anisotropy.
+  EXPECT_NEAR(anisotropy_of(Eigen::Matrix3d::Identity() / 3.0), 0.0, 1e-12);
+}
+
+TEST_F(FabricOfAFile, ChangesNothingWithOtherNumbersOrAxes) {
+  const MadeVolume made = chain();
+  const Fabric fabric = measured(made);
+  // Other numbers in another order.
+  const std::map<std::uint32_t, std::uint32_t> numbers = {
+      {0, 0}, {7, 1}, {3, 900}, {12, 4}, {5, 2}};
+  MadeVolume renumbered = made;
+  for (std::uint32_t& label : renumbered.labels) label = numbers.at(label);
+  const Fabric other = measured(renumbered);
+  // Axes in another order, one mirrored.
+  MadeVolume turned({made.counts[1], made.counts[2], made.counts[0]});
+  for (int z = 0; z < made.counts[2]; ++z) {
+    for (int y = 0; y < made.counts[1]; ++y) {
+      for (int x = 0; x < made.counts[0]; ++x) {
+        turned.at(made.counts[1] - 1 - y, z, x) = MadeVolume(made).at(x, y, z);
+      }
+    }
+  }
+  const Fabric swapped = measured(turned);
+  ASSERT_EQ(other.contacts.size(), fabric.contacts.size());
+  ASSERT_EQ(swapped.contacts.size(), fabric.contacts.size());
+  for (std::size_t k = 0; k < fabric.contacts.size(); ++k) {
+    const FabricContact& one = fabric.contacts[k];
+    const Label a = fabric.grains[one.first].label;
+    const Label b = fabric.grains[one.second].label;
+    const auto same = std::find_if(other.contacts.begin(), other.contacts.end(),
+                                   [&](const FabricContact& contact) {
+                                     const Label first = other.grains[contact.first].label;
+                                     const Label second = other.grains[contact.second].label;
+                                     return (first == numbers.at(a) && second == numbers.at(b)) ||
+                                            (first == numbers.at(b) && second == numbers.at(a));
+                                   });
+    ASSERT_NE(same, other.contacts.end());
+    const double side = other.grains[same->first].label == numbers.at(a) ? 1.0 : -1.0;
+    EXPECT_EQ(same->raw_area, one.raw_area);
+    EXPECT_NEAR(same->area, one.area, 1e-9 * one.area);
+    EXPECT_LT((side * same->normal - one.normal).norm(), 1e-9);
+    const FabricContact& turn = swapped.contacts[k];
+    EXPECT_NEAR(turn.area, one.area, 1e-9 * one.area);
+    EXPECT_NEAR(turn.area_uncertainty, one.area_uncertainty, 1e-9 * one.area);
+    EXPECT_NEAR(turn.normal_uncertainty, one.normal_uncertainty, 1e-6);
+    const Vector3 back(turn.normal[2], -turn.normal[0], turn.normal[1]);
+    EXPECT_LT((back - one.normal).norm(), 1e-9);
+    const Vector3 place(turn.centre[2], made.counts[1] - 1 - turn.centre[0], turn.centre[1]);
+    EXPECT_LT((place - one.centre).norm(), 1e-9);
+  }
+}
+
+/// Blurs along each axis by a Gaussian.
+std::vector<double> blurred(const MadeVolume& made, double deviation) {
+  std::vector<double> values(made.labels.size());
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = made.labels[k] == 0 ? 0.0 : 1.0;
+  const std::array<int, 3> strides = {1, made.counts[0], made.counts[0] * made.counts[1]};
+  const int reach = static_cast<int>(4.0 * deviation) + 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::vector<double> before = values;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const int place = static_cast<int>(k) / strides[axis] % made.counts[axis];
+      double sum = 0.0;
+      double weights = 0.0;
+      for (int step = -reach; step <= reach; ++step) {
+        const int there = std::clamp(place + step, 0, made.counts[axis] - 1);
+        const double weight = std::exp(-0.5 * step * step / (deviation * deviation));
+        sum += weight * before[k + static_cast<std::size_t>((there - place) * strides[axis])];
+        weights += weight;
+      }
+      values[k] = sum / weights;
+    }
+  }
+  return values;
+}
+
+TEST_F(FabricOfAFile, MeasuresTheBlurOfTheScanItself) {
+  const TwoBalls balls{{22, 24, 24}, {44.5, 25, 25}, 12.0, 12.0};
+  const MadeVolume made = balls.voxels({68, 48, 48}, Vector3::Ones());
+  write_labels(made, "labels.nrrd", "2 2 2");
+  std::mt19937 random(22);
+  std::normal_distribution<double> noise(0.0, 3.0);
+  for (const double deviation : {0.8, 1.4}) {
+    for (const bool is_dark : {false, true}) {
+      MadeVolume grey = made;
+      const std::vector<double> values = blurred(made, deviation);
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        const double value = 60.0 + 100.0 * (is_dark ? 1.0 - values[k] : values[k]);
+        grey.labels[k] = static_cast<std::uint32_t>(std::lround(value + noise(random)));
+      }
+      write_labels(grey, "scan.nrrd", "2 2 2");
+      const Fabric fabric = measured("labels.nrrd", "scan.nrrd");
+      ASSERT_TRUE(fabric.blur);
+      // Balls are set at the middles of voxels, which are no part of this blur.
+      EXPECT_NEAR(*fabric.blur, 2.0 * deviation, 0.2 * deviation) << is_dark;
+      const Fabric exact = measured("labels.nrrd");
+      EXPECT_FALSE(exact.blur);
+      EXPECT_LT(fabric.contacts[0].area, exact.contacts[0].area);
+    }
+  }
+}
+
+TEST_F(FabricOfAFile, RefusesWhatHasNoContacts) {
+  const auto refused = [&](const std::string& labels, const std::string& scan = "") {
+    return test::refusal(ErrorCode::InvalidInput, [&] { measured(labels, scan); });
+  };
+  write_labels(MadeVolume({5, 5, 5}), "none.nrrd");
+  EXPECT_NE(refused("none.nrrd").find("no label except the background, 0"), std::string::npos);
+  MadeVolume one({5, 5, 5});
+  one.fill_ball(8, {2, 2, 2}, 1.5);
+  write_labels(one, "one.nrrd");
+  EXPECT_NE(refused("one.nrrd").find("one label, 8"), std::string::npos);
+  write_labels(chain(), "chain.nrrd");
+  write_labels(MadeVolume({64, 30, 29}), "other.nrrd");
+  EXPECT_NE(refused("chain.nrrd", "other.nrrd").find("64 x 30 x 29"), std::string::npos);
+  write_labels(MadeVolume({64, 30, 30}), "flat.nrrd");
+  EXPECT_NE(refused("chain.nrrd", "flat.nrrd").find("do not differ"), std::string::npos);
+  one.fill_ball(9, {2, 2, 4}, 1.2);
+  write_labels(one, "small.nrrd");
+  EXPECT_NE(refused("small.nrrd", "small.nrrd").find("Leave --scan out"), std::string::npos);
+  write("floats.nrrd",
+        "NRRD0004\ntype: float\ndimension: 3\nencoding: ascii\nsizes: 2 1 1\n\n1.5 2\n");
+  EXPECT_ERROR(measured("floats.nrrd"), InputOutput);
+}
+
+TEST_F(FabricOfAFile, CountsWithAnotherBackgroundAndCanBeStopped) {
+  MadeVolume made = chain();
+  const Fabric before = measured(made);
+  for (std::uint32_t& label : made.labels) label = label == 0 ? 50 : label;
+  write_labels(made);
+  const Fabric fabric = measured("labels.nrrd", "", 50.0);
+  EXPECT_EQ(contacts_csv(fabric), contacts_csv(before));
+  EXPECT_EQ(contacts_csv(measured("labels.nrrd", "", 50.0, 3)), contacts_csv(before));
+  const auto volume = open_volume(path("labels.nrrd"));
+  test::expect_to_be_stopped(
+      [&](const Execution& execution) {
+        measure_fabric(*volume, {50.0, nullptr}, execution);
+      },
+      "Finding contacts", 20);
+}
+
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
+  std::istringstream stream(csv);
+  CsvReader reader(stream);
+  std::vector<std::string> names;
+  std::vector<std::string> fields;
+  std::vector<std::map<std::string, std::string>> rows;
+  reader.next(names);
+  while (reader.next(fields)) {
+    rows.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = fields.at(k);
+  }
+  return rows;
+}
+
+TEST_F(FabricOfAFile, WritesWhatItMeasured) {
+  const Fabric fabric = measured(chain());
+  const auto contacts = rows_of(contacts_csv(fabric));
+  const auto grains = rows_of(fabric_grains_csv(fabric));
+  ASSERT_EQ(contacts.size(), fabric.contacts.size());
+  ASSERT_EQ(grains.size(), 4U);
+  // The table alone gives the tensor, the coordination and the sums.
+  Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+  std::map<std::string, double> count;
+  std::map<std::string, double> sum;
+  double all = 0.0;
+  double raw = 0.0;
+  double faces = 0.0;
+  for (const auto& row : contacts) {
+    const auto number = [&](const char* name) { return std::stod(row.at(name)); };
+    EXPECT_EQ(row.at("unit"), "mm");
+    EXPECT_EQ(row.at("contact"), number("area") > 0.0 ? "1" : "0");
+    faces += number("faces");
+    raw += number("raw_area");
+    if (row.at("contact") != "1") continue;
+    const Vector3 n(number("normal_x"), number("normal_y"), number("normal_z"));
+    EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    tensor += n * n.transpose();
+    all += number("area");
+    for (const char* end : {"first", "second"}) {
+      count[row.at(end)] += 1.0;
+      sum[row.at(end)] += number("area");
+    }
+  }
+  tensor /= static_cast<double>(fabric.contact_count);
+  EXPECT_LT((tensor - fabric.tensor).norm(), 1e-12);
+  // Every face between two labels, counted plainly.
+  MadeVolume made = chain();
+  double plain = 0.0;
+  std::map<std::uint32_t, double> voxels;
+  for (int z = 0; z < 30; ++z) {
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        const std::uint32_t here = made.at(x, y, z);
+        ++voxels[here];
+        for (const auto& [u, v, w] : {std::array{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+          if (x + u > 63 || y + v > 29 || z + w > 29) continue;
+          const std::uint32_t there = made.at(x + u, y + v, z + w);
+          if (here != 0 && there != 0 && here != there) ++plain;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(faces, plain);
+  for (const auto& row : grains) {
+    EXPECT_EQ(std::stod(row.at("contacts")), count[row.at("label")]);
+    EXPECT_NEAR(std::stod(row.at("contact_area")), sum[row.at("label")], 1e-9);
+    EXPECT_EQ(std::stod(row.at("voxels")),
+              voxels[static_cast<std::uint32_t>(std::stoul(row.at("label")))]);
+    EXPECT_EQ(row.at("at_border"), row.at("label") == "7" ? "1" : "0");
+  }
+  // The page's numbers.
+  const std::string page = fabric_html(fabric, {"labels.nrrd", ""});
+  const test::Rows coordination = test::table_named(page, "contacts of a grain");
+  ASSERT_EQ(coordination.size(), 2U);
+  EXPECT_EQ(coordination[1], (std::vector<std::string>{"grains", "0", "1", "2"}));
+  const test::Rows tensors = test::table_named(page, "fabric tensor of the normals");
+  ASSERT_EQ(tensors.size(), 4U);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      EXPECT_EQ(tensors[static_cast<std::size_t>(i) + 1][static_cast<std::size_t>(j) + 1],
+                format_number(tensor(i, j), 4));
+    }
+  }
+  const test::Rows areas = test::table_named(page, "area of the contacts");
+  ASSERT_EQ(areas.size(), 3U);
+  EXPECT_EQ(areas[1].back(), format_number(all, 4));
+  EXPECT_EQ(areas[2].back(), format_number(raw, 4));
+  // All three normals lie within ten degrees of x, so the first or the last sector has them.
+  EXPECT_NE(page.find("outer circle: "), std::string::npos);
+}
+
+TEST_F(FabricOfAFile, DrawsADiscForEachContact) {
+  const Fabric fabric = measured(chain());
+  write("contacts.vtp", contacts_vtp(fabric));
+  const IndexedMesh discs = read_mesh(path("contacts.vtp"));
+  double area = 0.0;
+  for (const FabricContact& contact : fabric.contacts) area += contact.area;
+  ASSERT_EQ(discs.triangles.size(), 16U * fabric.contact_count);
+  double drawn = 0.0;
+  for (std::size_t t = 0; t < discs.triangles.size(); ++t) {
+    const auto& corners = discs.triangles[t];
+    const auto point = [&](std::size_t k) {
+      return discs.points[static_cast<std::size_t>(corners[k])];
+    };
+    const Vector3 across = 0.5 * (point(1) - point(0)).cross(point(2) - point(0));
+    drawn += across.norm();
+    EXPECT_GT(across.normalized().dot(fabric.contacts[t / 16].normal), 1.0 - 1e-9);
+  }
+  EXPECT_NEAR(drawn, area, 1e-9 * area);
+  EXPECT_EQ(test::between(contacts_vtp(fabric), "Name=\"", "\"").size(), 9U);
+}
+
+}  // namespace
+}  // namespace wscvt
