@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
 #include "toolbox/clump/clump.h"
+#include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/clump_report.h"
 #include "work.h"
 
@@ -26,9 +32,8 @@ py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
   return array;
 }
 
-py::object clump(const Points& vertices, const py::object& faces, int spheres, double max_error,
-                 int max_spheres, double smallest_radius, bool inside, int remesh_nodes,
-                 int threads, const py::object& progress) {
+ClumpOptions clump_options(int spheres, double max_error, int max_spheres, double smallest_radius,
+                           bool inside, int remesh_nodes) {
   ClumpOptions options;
   options.sphere_count = spheres;
   options.max_error_percent = max_error;
@@ -36,6 +41,14 @@ py::object clump(const Points& vertices, const py::object& faces, int spheres, d
   options.smallest_radius_percent = smallest_radius;
   options.inside = inside;
   options.compared_nodes = remesh_nodes;
+  return options;
+}
+
+py::object clump(const Points& vertices, const py::object& faces, int spheres, double max_error,
+                 int max_spheres, double smallest_radius, bool inside, int remesh_nodes,
+                 int threads, const py::object& progress) {
+  const ClumpOptions options =
+      clump_options(spheres, max_error, max_spheres, smallest_radius, inside, remesh_nodes);
   IndexedMesh scan = mesh_of(vertices, faces);
   const ClumpResult result = work_on(threads, progress, [&](const Execution& execution) {
     return make_clump(std::move(scan), options, execution);
@@ -43,6 +56,21 @@ py::object clump(const Points& vertices, const py::object& faces, int spheres, d
   py::object report = parsed(clump_json(result));
   report["spheres"] = array_of_spheres(result.spheres);
   return report;
+}
+
+py::dict clump_files(const std::vector<std::string>& inputs, const std::filesystem::path& output,
+                     int spheres, const std::string& shard, const std::string& format,
+                     const std::string& frame, double scale, double size, double density,
+                     double max_error, int max_spheres, double smallest_radius, bool inside,
+                     int remesh_nodes, int threads, const py::object& progress) {
+  ClumpJob options;
+  options.clump =
+      clump_options(spheres, max_error, max_spheres, smallest_radius, inside, remesh_nodes);
+  options.frame = frame_of(frame, scale, size);
+  options.density = density;
+  options.format = format;
+  check_job(options);
+  return run_job_on(inputs, make_job(options, output.string(), shard_of(shard)), threads, progress);
 }
 
 }  // namespace
@@ -59,6 +87,14 @@ void bind_clump(py::module_& module) {
       "Fits overlapping spheres to a grain. Returns the dictionary of the JSON report, with "
       "spheres as an array (k, 4) of x, y, z and radius. max_error and smallest_radius are in % "
       "of the equivalent radius. Arrays as for remesh. Lengths are in the unit of the mesh.");
+  module.def("_clump_files", &clump_files, py::arg("inputs"), py::arg("output"), py::arg("spheres"),
+             py::kw_only(), py::arg("shard") = "1/1", py::arg("format") = "csv",
+             py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,
+             py::arg("density") = 1.0, py::arg("max_error") = usual.max_error_percent,
+             py::arg("max_spheres") = usual.most_spheres,
+             py::arg("smallest_radius") = usual.smallest_radius_percent,
+             py::arg("inside") = usual.inside, py::arg("remesh_nodes") = usual.compared_nodes,
+             py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

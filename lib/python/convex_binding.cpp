@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
 #include "option_arguments.h"
 #include "toolbox/convex/parts.h"
+#include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/parts_report.h"
 #include "work.h"
 
@@ -36,6 +40,21 @@ py::tuple convex(const Points& vertices, const py::object& faces, int parts, int
   return py::make_tuple(list, parsed(parts_json(result)));
 }
 
+py::dict convex_files(const std::vector<std::string>& inputs, const std::filesystem::path& output,
+                      const std::string& shard, const std::string& format, const std::string& frame,
+                      double scale, double size, double density, int parts, int part_faces,
+                      double tolerance, int threads, const py::object& progress,
+                      const py::kwargs& given) {
+  ConvexJob options;
+  options.remesh = options_of(given, options.remesh);
+  options.convex = {parts, part_faces, tolerance};
+  options.frame = frame_of(frame, scale, size);
+  options.density = density;
+  options.format = format;
+  check_job(options);
+  return run_job_on(inputs, make_job(options, output.string(), shard_of(shard)), threads, progress);
+}
+
 }  // namespace
 
 void bind_convex(py::module_& module) {
@@ -50,6 +69,13 @@ void bind_convex(py::module_& module) {
              "faces of a part. tolerance: max. distance of a hull that is not cut, % of the "
              "equivalent radius. "
              "The scan and the options of its remesh are as for remesh. Raises Error.");
+  module.def("_convex_files", &convex_files, py::arg("inputs"), py::arg("output"), py::kw_only(),
+             py::arg("shard") = "1/1", py::arg("format") = "obj", py::arg("frame") = "input",
+             py::arg("scale") = 1.0, py::arg("size") = 0.0, py::arg("density") = 1.0,
+             py::arg("parts") = ConvexOptions().parts,
+             py::arg("part_faces") = ConvexOptions().faces,
+             py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
+             py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

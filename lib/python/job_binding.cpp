@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A remesh of each grain of files, into a folder: the job of "wscvt batch".
+// Jobs on the grains of files, into a folder; here that of "wscvt batch".
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -20,11 +20,8 @@ namespace wscvt::python {
 
 namespace py = pybind11;
 
-namespace {
-
-/// Runs a job on mesh files, folders, patterns and lists. Failed grains become Python warnings.
-py::dict run(const GrainJob& job, const std::vector<std::string>& inputs, int threads,
-             const py::object& progress) {
+py::dict run_job_on(const std::vector<std::string>& inputs, const GrainJob& job, int threads,
+                    const py::object& progress) {
   JoinedGrains grains(job.shard);
   for (const std::string& file : grain_files(inputs, {})) {
     check_mesh_format(file, MeshUse::Read);
@@ -63,6 +60,12 @@ py::dict run(const GrainJob& job, const std::vector<std::string>& inputs, int th
   return counts;
 }
 
+FrameOptions frame_of(const std::string& name, double scale, double size) {
+  return {value_of_name<Frame>(name), scale, size};
+}
+
+namespace {
+
 py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::path& output,
                const std::string& shard, const std::string& format, const std::string& describe,
                bool contacts, bool seconds, const std::string& frame, double scale, double size,
@@ -76,14 +79,14 @@ py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::pa
   options.shapes.contacts = contacts;
   options.format = format;
   options.seconds = seconds;
-  options.simulation.frame = {value_of_name<Frame>(frame), scale, size};
+  options.simulation.frame = frame_of(frame, scale, size);
   options.simulation.surface = value_of_name<GridSurface>(sdf_surface);
   options.simulation.grid.spacing = sdf_spacing;
   options.node_tables = node_table;
   options.grids = sdf;
   check_job(options);
   const GrainJob job = make_job(options, output.string(), shard_of(shard));
-  const py::dict counts = run(job, inputs, threads, progress);
+  const py::dict counts = run_job_on(inputs, job, threads, progress);
   write_summaries(job);
   return counts;
 }

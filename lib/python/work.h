@@ -7,7 +7,10 @@
 
 #include <exception>
 #include <string>
+#include <vector>
 
+#include "toolbox/exchange/simulation_options.h"
+#include "toolbox/job/grain_job.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 
@@ -41,6 +44,14 @@ auto work_on(int threads, const pybind11::object& progress, const Work& work) {
     throw;
   }
 }
+
+/// Runs a job on mesh files, folders, patterns and lists. Failed grains become Python warnings.
+/// Returns the numbers of grains and of failures.
+pybind11::dict run_job_on(const std::vector<std::string>& inputs, const GrainJob& job, int threads,
+                          const pybind11::object& progress);
+
+/// Returns the frame of files. Throws Error for an unknown name.
+FrameOptions frame_of(const std::string& name, double scale, double size);
 
 }  // namespace wscvt::python
 

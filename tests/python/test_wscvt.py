@@ -501,6 +501,31 @@ def test_a_batch_into_a_folder_is_that_of_the_program(scan, tmp_path, monkeypatc
         wscvt.batch("scans", output="wrong", nodse=60)
 
 
+def test_clumps_and_parts_of_a_folder_are_those_of_the_program(scan, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scans").mkdir()
+    small = wscvt.remesh(*scan, nodes=200)
+    for name in ("a.ply", "b.ply"):
+        wscvt.write_mesh(tmp_path / "scans" / name, small)
+    for call in (["clump", "-k", "3", "--format", "molecule"],
+                 ["convex", "-k", "2", "-n", "100", "--format", "urdf", "--frame", "principal"]):
+        subprocess.run([os.environ["WSCVT_PROGRAM"], call[0], "scans", "-o", call[0], "-q", "--density", "2",
+                        *call[1:]], check=True)
+    for part in ("1/2", "2/2", "1/1"):
+        wscvt.clump("scans", spheres=3, output=f"clump{part[2:]}", shard=part, format="molecule", density=2.0)
+        wscvt.convex(["scans"], parts=2, nodes=100, output=f"convex{part[2:]}", shard=part, format="urdf",
+                     density=2.0, frame="principal")
+    for kind, ending in (("clump", "molecule"), ("convex", "urdf")):
+        for name in ("grains.csv", "call.json", f"a.{ending}", f"b.{ending}"):
+            made = (tmp_path / kind / name).read_bytes()
+            assert (tmp_path / f"{kind}1" / name).read_bytes() == made, name
+            if name.startswith(("a", "b")):
+                assert (tmp_path / f"{kind}2" / name).read_bytes() == made, name
+        assert (tmp_path / f"{kind}2" / "grains-2-of-2.csv").exists()
+    with pytest.raises(wscvt.Error, match="other options"):
+        wscvt.clump("scans", spheres=4, output="clump1", format="molecule", density=2.0)
+
+
 def test_a_batch_reads_a_few_in_advance_and_ends_where_it_is_left(scan):
     asked = []
 

@@ -135,15 +135,19 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
     UserWarnings. Raises Error if nothing can be begun or the machine refuses to go on.
     """
     if output is not None:
-        if isinstance(scans, (str, os.PathLike)):
-            scans = [scans]
         if not isinstance(nodes, numbers.Integral) and nodes is not None:
             options["levels"] = sorted(nodes)
             nodes = options["levels"][-1]
         if nodes is not None:
             options["nodes"] = nodes
-        return _wscvt._batch([os.fspath(scan) for scan in scans], output, threads=threads, **options)
+        return _wscvt._batch(_inputs(scans), output, threads=threads, **options)
     return _batch(scans, nodes, threads, options)
+
+
+def _inputs(scans):
+    """Returns the names of files for a job."""
+    is_one = isinstance(scans, (str, os.PathLike))
+    return [os.fspath(scan) for scan in ([scans] if is_one else scans)]
 
 
 def _batch(scans, nodes, threads, options):
@@ -217,7 +221,7 @@ def extract(labels, voxel_size=1.0, **options):
     return _wscvt.extract(labels, voxel_size, **options)
 
 
-def clump(vertices, faces=None, spheres=20, **options):
+def clump(vertices, faces=None, spheres=20, *, output=None, **options):
     """Fits overlapping spheres to a grain, for engines with clumps.
 
     clump("scan.ply", spheres=50), clump(mesh), clump(vertices, faces)
@@ -231,9 +235,16 @@ def clump(vertices, faces=None, spheres=20, **options):
     threads: as for remesh.
     progress: as for remesh.
 
+    output: folder. Then `vertices` is one or more files, folders, patterns, or "@FILE" with one of
+        these per line, and the files are those of "wscvt clump", with grains.csv: see batch. format:
+        ending of the files, "csv" by default; shard, frame, size, scale: as for batch; density: for
+        .molecule. Returns a dictionary with the numbers of "grains" and of those that "failed".
+
     The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
     and radius. Raises Error, and TypeError for unknown options.
     """
+    if output is not None:
+        return _wscvt._clump_files(_inputs(vertices), output, spheres, **options)
     return _wscvt.clump(*_arrays(vertices, faces), spheres, **options)
 
 
@@ -365,7 +376,7 @@ def sample(table, other=None, *, report=(), density=None, **options):
     return _wscvt.sample(samples, [str(path) for path in reports], density=densities, **options)
 
 
-def convex(vertices, faces=None, **options):
+def convex(vertices, faces=None, *, output=None, **options):
     """Divides a grain into at most `parts` convex parts, for physics engines.
 
     vertices, faces: as for remesh. The cuts are chosen on a remesh of 500 nodes. The parts are
@@ -375,10 +386,16 @@ def convex(vertices, faces=None, **options):
     part_faces: max. number of faces of a part; 255 by default.
     tolerance: distance up to which a hull needs no cut, % of the equivalent radius; 0.5 by default.
     threads, progress and all options of remesh: as for remesh.
+    output: folder. Then `vertices` is one or more files, folders, patterns, or "@FILE" with one of
+        these per line, and the files are those of "wscvt convex", with grains.csv: see batch. format:
+        ending of the files, "obj" by default; shard, frame, size, scale: as for batch; density: for
+        mass and inertia. Returns a dictionary with the numbers of "grains" and of those that "failed".
 
     Returns a list with a pair (vertices, faces) for each part, and a dictionary: distances from the
     grain, volume, and the grain's mass properties at unit density. Raises Error.
     """
+    if output is not None:
+        return _wscvt._convex_files(_inputs(vertices), output, **options)
     return _wscvt.convex(*_arrays(vertices, faces), **options)
 
 
