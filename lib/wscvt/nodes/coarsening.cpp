@@ -6,6 +6,7 @@
 #include <cmath>
 #include <queue>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -117,31 +118,22 @@ void add_face(FanShape& shape, const Vector3& a, const Vector3& b, const Vector3
 
 }  // namespace
 
-Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, double large) const {
-  FanShape shape;
-  for (const auto& [i, j] : {std::pair(v, w), std::pair(w, v)}) {
-    mesh_.around(i, [&, i = i, j = j](std::int32_t h) {
-      const std::int32_t a = mesh_.target(h);
-      const std::int32_t b = mesh_.apex(h);
-      if (i == w && (a == j || b == j)) return;  // already added about the first
-      add_face(shape, mesh_.points[a] - mesh_.points[i], mesh_.points[b] - mesh_.points[i],
-               vectors_[a] + vectors_[b] + vectors_[i], large);
-    });
-  }
-  return shape;
-}
-
-Coarsening::FanShape Coarsening::shape_merged(std::int32_t v, std::int32_t w, double large) const {
+/// Returns the shape of the faces about two neighbours, as they are or if they were merged.
+Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, bool are_merged,
+                                          double large) const {
   const Vector3 point = merged(v, w);
   const Vector3 vector = vectors_[v] + vectors_[w];
   FanShape shape;
   for (const auto& [i, j] : {std::pair(v, w), std::pair(w, v)}) {
-    mesh_.around(i, [&, j = j](std::int32_t h) {
+    const Vector3& centre = are_merged ? point : mesh_.points[i];
+    const Vector3& about = are_merged ? vector : vectors_[i];
+    mesh_.around(i, [&, i = i, j = j](std::int32_t h) {
       const std::int32_t a = mesh_.target(h);
       const std::int32_t b = mesh_.apex(h);
-      if (a == j || b == j) return;
-      add_face(shape, mesh_.points[a] - point, mesh_.points[b] - point,
-               vectors_[a] + vectors_[b] + vector, large);
+      // The two faces between them disappear, or are already added about the first.
+      if ((are_merged || i == w) && (a == j || b == j)) return;
+      add_face(shape, mesh_.points[a] - centre, mesh_.points[b] - centre,
+               vectors_[a] + vectors_[b] + about, large);
     });
   }
   return shape;
@@ -157,11 +149,11 @@ bool Coarsening::possible(std::int32_t v, std::int32_t w) {
   const double area = areas_[v] + areas_[w];
   const double density = mass > 0.0 && area > 0.0 ? std::sqrt(mass / area) : 1.0;
   const double cell = area_ / alive_ / density;
-  const FanShape after = shape_merged(v, w, large_face * cell);
+  const FanShape after = shape_of(v, w, true, large_face * cell);
   if (after.turned <= turned_allowance * cell && after.least_squared_sine >= least_squared_sine) {
     return true;
   }
-  const FanShape before = shape_of(v, w, large_face * cell);
+  const FanShape before = shape_of(v, w, false, large_face * cell);
   return after.turned <= before.turned + turned_allowance * cell &&
          after.least_squared_sine >=
              std::min(before.least_squared_sine, least_squared_sine) - 1e-12;
@@ -179,28 +171,16 @@ void Coarsening::merge(std::int32_t v, std::int32_t w) {
   --alive_;
 }
 
-void Coarsening::merge_cheapest_of(std::int32_t v, double limit) {
-  constexpr int most = 64;
-  std::array<std::int32_t, most> candidates{};
-  std::array<double, most> costs{};
-  int count = 0;
+Coarsening::Merge Coarsening::cheapest_after(std::int32_t v, double cost, std::int32_t last) const {
+  Merge best = {1e300, v, -1, 0};
   mesh_.around(v, [&](std::int32_t h) {
     const std::int32_t w = mesh_.target(h);
-    const double price = cost(v, w);
-    if (price >= limit || count == most) return;
-    candidates[count] = w;
-    costs[count++] = price;
+    const double price = this->cost(v, w);
+    if (price < cost || (price == cost && w <= last)) return;
+    if (price > best.cost || (price == best.cost && w >= best.w)) return;
+    best = {price, v, w, 0};
   });
-  while (count > 0) {
-    const auto best = std::min_element(costs.begin(), costs.begin() + count) - costs.begin();
-    if (possible(v, candidates[best])) {
-      merge(v, candidates[best]);
-      return;
-    }
-    --count;
-    candidates[best] = candidates[count];
-    costs[best] = costs[count];
-  }
+  return best;
 }
 
 int Coarsening::sweep(int least) {
@@ -210,7 +190,10 @@ int Coarsening::sweep(int least) {
   const double limit = std::min(cheap_merge * cell * cell, last_merge * wanted * wanted);
   const auto count = static_cast<std::int32_t>(mesh_.points.size());
   for (std::int32_t v = 0; v < count && alive_ > least; ++v) {
-    if (into_[v] < 0) merge_cheapest_of(v, limit);
+    if (into_[v] >= 0) continue;
+    Merge next = cheapest_after(v, -1.0, -1);
+    while (next.cost < limit && !possible(v, next.w)) next = cheapest_after(v, next.cost, next.w);
+    if (next.cost < limit) merge(v, next.w);
   }
   compact();
   flip_to_delaunay(mesh_, vectors_);
@@ -231,18 +214,10 @@ class Coarsening::Queue {
     push_after(v, -1.0, -1);
   }
 
-  /// Enters the cheapest merge at a vertex after the one of this cost with `last`.
   void push_after(std::int32_t v, double cost, std::int32_t last) {
-    Merge best = {1e300, v, -1, times_[v]};
-    owner_.mesh_.around(v, [&](std::int32_t h) {
-      const std::int32_t w = owner_.mesh_.target(h);
-      const double price = owner_.cost(v, w);
-      if (price < cost || (price == cost && w <= last)) return;
-      if (price > best.cost || (price == best.cost && w >= best.w)) return;
-      best.cost = price;
-      best.w = w;
-    });
-    if (best.w >= 0) queue_.push(best);
+    Merge next = owner_.cheapest_after(v, cost, last);
+    next.time = times_[v];
+    if (next.w >= 0) queue_.push(next);
   }
 
   /// Makes the cheapest merge; returns false if there is none.
@@ -359,17 +334,8 @@ std::int32_t Coarsening::cluster_of(std::int32_t vertex) const {
 
 namespace {
 
-struct LongEdge {
-  double squared_length;
-  std::int32_t half_edge;
-  std::int32_t from;
-  std::int32_t to;
-
-  bool operator<(const LongEdge& other) const {
-    if (squared_length != other.squared_length) return squared_length < other.squared_length;
-    return half_edge < other.half_edge;
-  }
-};
+/// Squared length, half-edge, and its ends.
+using LongEdge = std::tuple<double, std::int32_t, std::int32_t, std::int32_t>;
 
 }  // namespace
 
@@ -382,7 +348,7 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
     const std::int32_t from = mesh.origin(h);
     const std::int32_t to = mesh.target(h);
     const double squared = (mesh.points[from] - mesh.points[to]).squaredNorm();
-    if (squared > length * length) edges.push({squared, h, from, to});
+    if (squared > length * length) edges.emplace(squared, h, from, to);
   };
   for (std::size_t h = 0; h < mesh.opposite.size(); ++h) {
     const auto half_edge = static_cast<std::int32_t>(h);
@@ -390,12 +356,10 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
   }
   std::vector<std::array<std::int32_t, 2>> ends;
   while (!edges.empty()) {
-    const LongEdge edge = edges.top();
+    const auto [squared, half_edge, from, to] = edges.top();
     edges.pop();
     // Splits nearby renumber half-edges.
-    if (mesh.origin(edge.half_edge) != edge.from || mesh.target(edge.half_edge) != edge.to) {
-      continue;
-    }
+    if (mesh.origin(half_edge) != from || mesh.target(half_edge) != to) continue;
     if (ends.size() == most) {
       refuse("The scan's faces are so long and narrow that more than " + std::to_string(most) +
              " vertices would be needed to split them. Look for a vertex far from the others, or "
@@ -404,13 +368,13 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
     if (ends.size() % splits_a_report == 0) execution.report(0.0, "Splitting the scan's faces");
     const auto v = static_cast<std::int32_t>(mesh.points.size());
     const auto free = static_cast<std::int32_t>(mesh.triangles.size());
-    mesh.points.push_back(0.5 * (mesh.points[edge.from] + mesh.points[edge.to]));
+    mesh.points.push_back(0.5 * (mesh.points[from] + mesh.points[to]));
     mesh.first.push_back(-1);
     mesh.degrees.push_back(0);
     mesh.triangles.resize(mesh.triangles.size() + 2);
     mesh.opposite.resize(mesh.opposite.size() + 6, -1);
-    mesh.put_on_edge(v, edge.half_edge, {free, free + 1});
-    ends.push_back({edge.from, edge.to});
+    mesh.put_on_edge(v, half_edge, {free, free + 1});
+    ends.push_back({from, to});
     mesh.around(v, [&](std::int32_t h) {
       enter(h);
       enter(next_half_edge(h));

@@ -29,9 +29,8 @@ class Coarsening {
 
   const EditMesh& mesh() const { return mesh_; }
   std::size_t size() const { return static_cast<std::size_t>(alive_); }
-  /// Area, mass and vector area of each vertex's cluster.
+  /// Area and vector area of each vertex's cluster.
   const std::vector<double>& areas() const { return areas_; }
-  const std::vector<double>& masses() const { return masses_; }
   const std::vector<Vector3>& vectors() const { return vectors_; }
 
   /// Merges cheap pairs, which about halves the vertices but leaves at least `least`, then flips to
@@ -65,10 +64,11 @@ class Coarsening {
     double turned = 0.0;  ///< area that faces against its vectors
     double least_squared_sine = 1.0;
   };
-  FanShape shape_of(std::int32_t v, std::int32_t w, double large) const;
-  FanShape shape_merged(std::int32_t v, std::int32_t w, double large) const;
+  FanShape shape_of(std::int32_t v, std::int32_t w, bool are_merged, double large) const;
   void merge(std::int32_t v, std::int32_t w);
-  void merge_cheapest_of(std::int32_t v, double limit);
+  /// Returns the cheapest merge at a vertex after the one of this cost with `last`, possible or
+  /// not; `w` is -1 if there is none.
+  Merge cheapest_after(std::int32_t v, double cost, std::int32_t last) const;
   void compact();
 
   EditMesh mesh_;

@@ -383,11 +383,10 @@ EqualizationReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places
 std::vector<double> voronoi_areas(const EditMesh& nodes) {
   std::vector<double> areas(nodes.points.size(), 0.0);
   for (std::size_t t = 0; t < nodes.triangles.size(); ++t) {
-    const Vector3 normal = nodes.normal(t);
     const auto& [a, b, c] = nodes.triangles[t];
-    const std::array<CellPart, 3> parts =
-        cell_parts({nodes.points[a], nodes.points[b], nodes.points[c]}, {1.0, 1.0, 1.0},
-                   normal / (normal.norm() + 1e-300));
+    std::array<CellPart, 3> parts;
+    even_cell_parts({&nodes.points[a], &nodes.points[b], &nodes.points[c]}, nodes.normal(t).norm(),
+                    parts.data());
     for (int k = 0; k < 3; ++k) areas[nodes.triangles[t][k]] += parts[k].area;
   }
   return areas;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/nodes/fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +40,10 @@ constexpr int first_relocation = 2;
 constexpr int rounds_without_relocation = 8;
 
 /// Intersections are looked for in every fourth round, in the last two, and after a round that had
-/// any. What a round leaves, the next look mends.
+/// any; the next look mends what is left. Single nodes are moved in every fourth round and in the
+/// last four. In all rounds, this takes half of the time at ratio 1.6 and gains nothing.
 constexpr int rounds_a_look = 4;
+constexpr int last_polishes = 4;
 
 double cosine_of_degrees(double degrees) { return portable::cos(degrees * pi / 180.0); }
 
@@ -58,8 +59,8 @@ class SurfaceFit {
       if (relocates(round)) report_.relocations += relocate_nodes(state_, execution_);
       if (flips(round)) report_.flips += flip_for_fit(state_);
       move_nodes(state_, fit_step(state_, execution_), execution_);
-      if (dial_.polishes) polish(1);
       state_.place_samples(execution_);
+      if (polishes(round)) report_.polished += polish_nodes(state_, 1);
       ++report_.rounds;
     }
     mend_below(smallest_angle);
@@ -111,12 +112,10 @@ class SurfaceFit {
   bool relocates(int round) const {
     return round >= first_relocation && round < dial_.rounds - rounds_without_relocation;
   }
-  bool flips(int round) const { return round > 0 && round < dial_.rounds - 1; }
-
-  void polish(int passes) {
-    state_.place_samples(execution_);
-    report_.polished += polish_nodes(state_, passes);
+  bool polishes(int round) const {
+    return dial_.polishes && (round % rounds_a_look == 0 || round >= dial_.rounds - last_polishes);
   }
+  bool flips(int round) const { return round > 0 && round < dial_.rounds - 1; }
 
   bool has_angles_below(double degrees) const {
     const double limit = cosine_of_degrees(degrees);
@@ -136,6 +135,7 @@ class SurfaceFit {
     state_.round.checks_pairs = true;
     for (int pass = 0; pass < most_passes && has_angles_below(degrees); ++pass) {
       execution_.report(1.0, "Fitting the nodes");
+      state_.place_samples(execution_);
       state_.edge = mean_edge_length(state_.mesh);
       state_.build_hash();
       state_.round.price = growth * std::max(state_.round.price, state_.mean_square);
@@ -146,8 +146,6 @@ class SurfaceFit {
         state_.place_samples(execution_);
         mend_angles(state_, degrees);
       }
-      state_.place_samples(execution_);
-      ++report_.mending;
     }
   }
 

@@ -66,10 +66,8 @@ class FitFlips {
   bool try_flip(std::int32_t h) {
     FlipCandidate f;
     if (!look_at(h, f)) return false;
-    const double cost = cost_of(f);
-    const double before = squares_[f.t] + squares_[f.u];
-    const double worth = error_worth * state_.share();
-    const double most = before - (cost + 1e-9 * state_.edge * state_.edge) / worth;
+    const double cost = cost_of(f) + 1e-9 * state_.edge * state_.edge;
+    const double most = squares_[f.t] + squares_[f.u] - cost / (error_worth * state_.share());
     if (most <= 0.0 || mesh_.joined(f.c, f.d) || !look_at_normals(f)) return false;
     if (!deal_samples(f, most) || !keeps_shape(f)) return false;
     const std::vector<std::int32_t> both = {static_cast<std::int32_t>(f.t),

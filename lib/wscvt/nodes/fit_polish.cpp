@@ -24,18 +24,17 @@ constexpr double second_try = 0.3;
 /// it too.
 constexpr double lone_ring = 1.17;
 
-enum class Polish : char { No, Angles, Distance };
-
-std::vector<Polish> nodes_to_polish(const FitState& state) {
-  std::vector<Polish> nodes(state.mesh.points.size(), Polish::No);
+/// Returns which nodes have a sharp triangle or, in the late rounds, a distant sample.
+std::vector<char> nodes_to_polish(const FitState& state) {
+  std::vector<char> nodes(state.mesh.points.size(), 0);
   for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
     if (state.excess(t) <= 0.0) continue;
-    for (const std::int32_t v : state.mesh.triangles[t]) nodes[v] = Polish::Angles;
+    for (const std::int32_t v : state.mesh.triangles[t]) nodes[v] = 1;
   }
   if (!state.round.late) return nodes;
   for (const FitSample& sample : state.samples) {
     if (sample.place.squared_distance <= far_sample * far_sample * state.mean_square) continue;
-    for (const std::int32_t v : state.mesh.triangles[sample.face]) nodes[v] = Polish::Distance;
+    for (const std::int32_t v : state.mesh.triangles[sample.face]) nodes[v] = 1;
   }
   return nodes;
 }
@@ -59,47 +58,31 @@ bool folds_more(const FitState& state, const NodeRing& ring, const FitFan& fan, 
          turn < sharpest_turn(state, fan.centre, fan.ring, ring.beyond, true) - 1e-9;
 }
 
-/// Finds a position at which the fan costs less, by a step or by moving to the farthest sample.
-bool find_better(const FitState& state, FitFan& fan, Polish polish,
-                 const std::vector<Vector3>& about, Vector3& at) {
+/// Finds a position at which the fan costs less.
+bool find_better(const FitState& state, FitFan& fan, Vector3& at) {
   FanEquations equations;
   const double before = fan_energy(state, fan, fan.centre, &equations);
-  const double most = before * (1.0 - least_energy_fall);
   const Vector3 step = equations.step(longest_polish * fan.rest);
-  if (step.norm() < shortest_polish * fan.rest && polish != Polish::Distance) return false;
+  if (step.norm() < shortest_polish * fan.rest) return false;
   for (const double part : {1.0, second_try}) {
     at = fan.centre + part * step;
-    if (fan_energy(state, fan, at) < most) return true;
-  }
-  if (polish != Polish::Distance) return false;
-  double farthest = 0.0;
-  std::int32_t far = -1;
-  for (const std::int32_t s : fan.samples) {
-    if (state.samples[s].place.squared_distance <= farthest) continue;
-    farthest = state.samples[s].place.squared_distance;
-    far = s;
-  }
-  if (far < 0) return false;
-  for (const double part : {1.0, 0.5}) {
-    at = fan.centre + part * (state.samples[far].point - fan.centre);
-    if (fan_energy(state, fan, at) < most && fan_is_fine(state, fan, at, about)) return true;
+    if (fan_energy(state, fan, at) < before * (1.0 - least_energy_fall)) return true;
   }
   return false;
 }
 
-bool polish_node(FitState& state, std::int32_t v, Polish polish,
-                 const std::vector<Vector3>& about) {
+bool polish_node(FitState& state, std::int32_t v) {
   const NodeRing ring = ring_of(state.mesh, v);
   FitFan fan = fan_of(state, v, ring);
   fan.rest = state.ring_edge(v);
   fan.spring = state.spring();
   fan.pull = lone_ring * state.ring();
   Vector3 at = fan.centre;
-  if (!find_better(state, fan, polish, about, at)) return false;
+  if (!find_better(state, fan, at)) return false;
   const double sharpness_before = fan_sharpness(fan, fan.centre);
   const double sharpness_after = fan_sharpness(fan, at);
-  if (!fan_is_fine(state, fan, at, about)) {
-    if (fan_is_fine(state, fan, fan.centre, about) || sharpness_after > sharpness_before ||
+  if (!fan_is_fine(state, fan, at, state.about)) {
+    if (fan_is_fine(state, fan, fan.centre, state.about) || sharpness_after > sharpness_before ||
         folds_more(state, ring, fan, at)) {
       return false;
     }
@@ -110,7 +93,7 @@ bool polish_node(FitState& state, std::int32_t v, Polish polish,
   }
   if (fan_meets(state, v, ring, fan, at)) return false;
   state.mesh.points[v] = at;
-  state.deal(fan.samples, ring.triangles);
+  state.deal(fan.samples, ring.triangles, fan.places);
   for (const std::int32_t t : ring.triangles) state.hash.enter(state.mesh, t);
   return true;
 }
@@ -188,17 +171,14 @@ void look_for_mending(const FitState& state, std::int32_t v, double limit, Mendi
 }  // namespace
 
 int polish_nodes(FitState& state, int passes) {
-  const std::vector<Vector3>& about = state.about;
   int done = 0;
   for (int pass = 0; pass < passes; ++pass) {
-    const std::vector<Polish> nodes = nodes_to_polish(state);
-    int moved = 0;
+    const std::vector<char> nodes = nodes_to_polish(state);
+    const int before = done;
     for (std::size_t v = 0; v < nodes.size(); ++v) {
-      if (nodes[v] == Polish::No) continue;
-      if (polish_node(state, static_cast<std::int32_t>(v), nodes[v], about)) ++moved;
+      if (nodes[v] != 0 && polish_node(state, static_cast<std::int32_t>(v))) ++done;
     }
-    done += moved;
-    if (moved == 0) break;
+    if (done == before) break;
   }
   return done;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "wscvt/nodes/fit_steps.h"
@@ -35,7 +36,7 @@ struct Removal {
   std::int32_t into = -1;
 
   bool operator<(const Removal& other) const {
-    return cost < other.cost || (cost == other.cost && v < other.v);
+    return std::tie(cost, v) < std::tie(other.cost, other.v);
   }
 };
 
@@ -47,8 +48,7 @@ struct Insertion {
   Vector3 at = Vector3::Zero();
 
   bool operator<(const Insertion& other) const {
-    if (gain != other.gain) return gain > other.gain;
-    return t < other.t || (t == other.t && c < other.c);
+    return std::tie(other.gain, t, c) < std::tie(gain, other.t, other.c);
   }
 };
 

@@ -288,8 +288,46 @@ void FitState::list_samples() {
   if (!even) read_spacing();
 }
 
+namespace {
+
+/// The triangle of a fan nearest to a sample, and the position in it.
+struct FanPlace {
+  std::size_t triangle = 0;
+  TrianglePlace place;
+};
+
+/// Searches from the sample's last triangle to both sides as long as they get nearer.
+FanPlace place_in_fan(const std::vector<MeasuredTriangle>& triangles, const Vector3& point,
+                      std::int32_t last) {
+  const std::size_t count = triangles.size();
+  FanPlace best;
+  best.place.squared_distance = 1e300;
+  const auto look = [&](std::size_t j) {
+    const TrianglePlace place = triangles[j].nearest(point);
+    if (place.squared_distance >= best.place.squared_distance) return false;
+    best = {j, place};
+    return true;
+  };
+  if (last < 0) {
+    for (std::size_t j = 0; j < count; ++j) look(j);
+    return best;
+  }
+  look(last);
+  if (best.place.region == 0) return best;
+  const auto start = static_cast<std::size_t>(last);
+  bool forwards = false;
+  for (std::size_t i = 1; i < count && look((start + i) % count); ++i) forwards = true;
+  if (forwards) return best;
+  for (std::size_t i = 1; i < count && look((start + count - i) % count); ++i) {
+  }
+  return best;
+}
+
+}  // namespace
+
 void FitState::deal(const std::vector<std::int32_t>& pool,
-                    const std::vector<std::int32_t>& triangles) {
+                    const std::vector<std::int32_t>& triangles,
+                    const std::vector<std::int32_t>& places) {
   std::vector<MeasuredTriangle> shapes;
   shapes.reserve(triangles.size());
   for (const std::int32_t t : triangles) {
@@ -297,17 +335,12 @@ void FitState::deal(const std::vector<std::int32_t>& pool,
     sample_normals[t].setZero();
     shapes.push_back(measured_triangle(mesh, t));
   }
-  for (const std::int32_t s : pool) {
-    FitSample& sample = samples[s];
-    double best = 1e300;
-    for (std::size_t j = 0; j < shapes.size(); ++j) {
-      const TrianglePlace place = shapes[j].nearest(sample.point);
-      if (place.squared_distance >= best) continue;
-      best = place.squared_distance;
-      sample.place = place;
-      sample.face = triangles[j];
-    }
-    of[sample.face].push_back(s);
+  for (std::size_t i = 0; i < pool.size(); ++i) {
+    FitSample& sample = samples[pool[i]];
+    const FanPlace in = place_in_fan(shapes, sample.point, places.empty() ? -1 : places[i]);
+    sample.place = in.place;
+    sample.face = triangles[in.triangle];
+    of[sample.face].push_back(pool[i]);
     sample_normals[sample.face] += sample.normal;
   }
 }
@@ -358,20 +391,14 @@ double sharpest_turn(const FitState& state, const Vector3& centre, const std::ve
                      const std::vector<std::int32_t>& beyond, bool closed) {
   const std::size_t count = ring.size();
   const std::size_t triangles = closed ? count : count - 1;
+  std::vector<Vector3> normals;
   double least = 1.0;
-  Vector3 first = Vector3::Zero();
-  Vector3 last = Vector3::Zero();
   for (std::size_t j = 0; j < triangles; ++j) {
-    const Vector3 normal = unit_normal_of(centre, ring[j], ring[(j + 1) % count]);
-    least = std::min(least, normal.dot(state.unit_normal(beyond[j])));
-    if (j == 0) {
-      first = normal;
-    } else {
-      least = std::min(least, normal.dot(last));
-    }
-    last = normal;
+    normals.push_back(unit_normal_of(centre, ring[j], ring[(j + 1) % count]));
+    least = std::min(least, normals[j].dot(state.unit_normal(beyond[j])));
+    if (j > 0) least = std::min(least, normals[j].dot(normals[j - 1]));
   }
-  return closed ? std::min(least, last.dot(first)) : least;
+  return closed ? std::min(least, normals.back().dot(normals.front())) : least;
 }
 
 namespace {
@@ -382,39 +409,6 @@ constexpr double fan_damping = 1e-3;
 constexpr double fan_rim_pull = 2.0;
 /// A node needs a sample within this fraction of a spoke.
 constexpr double near_sample = 0.3;
-
-/// The triangle of a fan nearest to a sample, and the position in it.
-struct FanPlace {
-  std::size_t triangle = 0;
-  TrianglePlace place;
-};
-
-/// Searches from the sample's last triangle to both sides as long as they get nearer.
-FanPlace place_in_fan(const std::vector<MeasuredTriangle>& triangles, const Vector3& point,
-                      std::int32_t last) {
-  const std::size_t count = triangles.size();
-  FanPlace best;
-  best.place.squared_distance = 1e300;
-  const auto look = [&](std::size_t j) {
-    const TrianglePlace place = triangles[j].nearest(point);
-    if (place.squared_distance >= best.place.squared_distance) return false;
-    best = {j, place};
-    return true;
-  };
-  if (last < 0) {
-    for (std::size_t j = 0; j < count; ++j) look(j);
-    return best;
-  }
-  look(last);
-  if (best.place.region == 0) return best;
-  const auto start = static_cast<std::size_t>(last);
-  bool forwards = false;
-  for (std::size_t i = 1; i < count && look((start + i) % count); ++i) forwards = true;
-  if (forwards) return best;
-  for (std::size_t i = 1; i < count && look((start + count - i) % count); ++i) {
-  }
-  return best;
-}
 
 std::vector<MeasuredTriangle> triangles_of(const FitFan& fan, const Vector3& at) {
   const std::size_t count = fan.ring.size();
@@ -520,12 +514,19 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEqua
     }
   }
   double energy = 0.0;
+  fan.looked_at = at;
+  fan.normals.assign(count, Vector3::Zero());
+  fan.counts.assign(count, 0);
+  fan.nearest = 1e300;
   for (std::size_t i = 0; i < fan.samples.size(); ++i) {
     const FanPlace in = remembered_place(state, fan, triangles, i);
+    const FitSample& sample = state.samples[fan.samples[i]];
+    fan.normals[in.triangle] += sample.normal;
+    ++fan.counts[in.triangle];
+    fan.nearest = std::min(fan.nearest, (sample.point - at).squaredNorm());
     energy += state.share() * state.error(in.place.squared_distance);
     if (equations != nullptr) {
-      add_sample(state, fan, at, state.samples[fan.samples[i]], in, normals[in.triangle],
-                 *equations);
+      add_sample(state, fan, at, sample, in, normals[in.triangle], *equations);
     }
   }
   energy += add_triangles(state, fan, at, equations);
@@ -537,23 +538,13 @@ bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
                  const std::vector<Vector3>& about) {
   constexpr int enough = 3;
   const std::size_t count = fan.ring.size();
-  const std::vector<MeasuredTriangle> triangles = triangles_of(fan, at);
-  std::vector<Vector3> sums(count, Vector3::Zero());
-  std::vector<int> counts(count, 0);
-  double nearest = 1e300;
-  for (std::size_t i = 0; i < fan.samples.size(); ++i) {
-    const FanPlace in = remembered_place(state, fan, triangles, i);
-    const FitSample& sample = state.samples[fan.samples[i]];
-    sums[in.triangle] += sample.normal;
-    ++counts[in.triangle];
-    nearest = std::min(nearest, (sample.point - at).squaredNorm());
-  }
-  if (nearest > near_sample * near_sample * fan.rest * fan.rest) return false;
+  if (fan.looked_at != at) fan_energy(state, fan, at);
+  if (fan.nearest > near_sample * near_sample * fan.rest * fan.rest) return false;
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t next = (j + 1) % count;
-    Vector3 outward = sums[j];
-    if (counts[j] < enough) {
-      if (counts[j] > 0) outward /= counts[j];
+    Vector3 outward = fan.normals[j];
+    if (fan.counts[j] < enough) {
+      if (fan.counts[j] > 0) outward /= fan.counts[j];
       outward += about[fan.nodes[j]] + about[fan.nodes[next]];
     }
     const Vector3 normal = unit_normal_of(at, fan.ring[j], fan.ring[next]);

@@ -138,8 +138,10 @@ struct FitState {
   void place_samples(const Execution& execution);
   /// Rebuilds `of`, `sample_normals` and `about`, and `spacing` if any sample has another than 1.
   void list_samples();
-  /// Assigns samples to the nearest of some triangles; they must not lie in others.
-  void deal(const std::vector<std::int32_t>& pool, const std::vector<std::int32_t>& triangles);
+  /// Assigns samples to the nearest of some triangles; they must not lie in others. `places`: for
+  /// the triangles about a node, in order, the one that each sample is probably in.
+  void deal(const std::vector<std::int32_t>& pool, const std::vector<std::int32_t>& triangles,
+            const std::vector<std::int32_t>& places = {});
   /// Returns the samples of some triangles.
   std::vector<std::int32_t> pool(const std::vector<std::int32_t>& triangles) const;
   /// Computes `spacing` from the samples.
@@ -181,9 +183,13 @@ struct FitFan {
   std::vector<std::int32_t> nodes;    ///< their nodes in the mesh
   std::vector<std::int32_t> samples;  ///< in the triangles of the fan
   std::vector<std::int32_t> places;   ///< triangle of each sample at the last look-up, or -1
-  double rest = 0.0;                  ///< length of the spokes
-  double spring = 0.0;                ///< their stiffness
-  double pull = 0.0;                  ///< of the node towards the middle of the ring
+  Vector3 looked_at = Vector3::Constant(1e300);  ///< position of the node at the last look-up
+  std::vector<Vector3> normals;                  ///< sum of the samples' in each triangle there
+  std::vector<int> counts;                       ///< samples in each triangle there
+  double nearest = 1e300;                        ///< squared distance of the nearest sample there
+  double rest = 0.0;                             ///< length of the spokes
+  double spring = 0.0;                           ///< their stiffness
+  double pull = 0.0;                             ///< of the node towards the middle of the ring
 };
 
 /// The equations for a fan's step, before they are solved.

@@ -30,7 +30,8 @@ constexpr double rim_reach = 0.03;
 constexpr double rim_support = 0.3;
 /// Added to a triangle's longest / shortest edge less one, so that springs stay finite.
 constexpr double softest_triangle = 0.1;
-constexpr int gradient_steps = 15;
+/// With 5 more, rms stays the same and the fit takes 4 % longer.
+constexpr int gradient_steps = 10;
 /// The steps end if the squared residual is this much smaller.
 constexpr double gradient_end = 1e-4;
 /// The ring term's diagonal: 1 and a sixth, for a sixth each of six neighbours' sixths.
@@ -232,21 +233,18 @@ class FitEquations {
   void add_samples(std::size_t t) {
     if (state_.of[t].empty()) return;
     const auto& [a, b, c] = mesh_.triangles[t];
-    const Vector3 pa = mesh_.points[a];
-    const Vector3 pb = mesh_.points[b];
-    const Vector3 pc = mesh_.points[c];
+    const std::array<Vector3, 3> x = {mesh_.points[a], mesh_.points[b], mesh_.points[c]};
     const Vector3 normal = normals_[t] / (lengths_[t] + 1e-300);
     // First each corner with itself, then corner k with corner k + 1.
     Eigen::Matrix<double, 6, 6> sums = Eigen::Matrix<double, 6, 6>::Zero();
     FaceSystem& face = faces_[t];
     const double share = state_.share();
-    const std::array<const Vector3*, 3> corners = {&pa, &pb, &pc};
     const std::array<const StarShape*, 3> shapes = {&shapes_[a], &shapes_[b], &shapes_[c]};
     std::array<NearestSample, 3> nearest;
     for (const std::int32_t s : state_.of[t]) {
       const FitSample& sample = state_.samples[s];
       const TrianglePlace& place = sample.place;
-      const Vector3 r = place.point(pa, pb, pc) - sample.point;
+      const Vector3 r = place.point(x[0], x[1], x[2]) - sample.point;
       const double weight = share * state_.weight(place.squared_distance);
       const double agreement = sample.normal.dot(normal);
       const Vector3 u = agreement < 0.0 ? normal : Vector3((sample.normal + normal).normalized());
@@ -256,9 +254,8 @@ class FitEquations {
       const Vector3 pull = weight * off * u;
       const Vector3& w = place.weights;
       for (int k = 0; k < 3; ++k) {
-        const auto corner = static_cast<std::size_t>(k);
-        if (w[k] > own_weight)
-          nearest[corner].add(s, sample.point, *corners[corner], *shapes[corner]);
+        const auto at = static_cast<std::size_t>(k);
+        if (w[k] > own_weight) nearest[at].add(s, sample.point, x[at], *shapes[at]);
         sums.col(k) += w[k] * w[k] * metric;
         sums.col(3 + k) += w[k] * w[(k + 1) % 3] * metric;
         face.pull[k] -= w[k] * pull;
@@ -293,10 +290,9 @@ class FitEquations {
       lengths[k] = edges[k].norm() + 1e-300;
       edges[k] /= lengths[k];
     }
-    const auto longest = static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) -
-                                                  lengths.begin());
-    const auto shortest = static_cast<std::size_t>(
-        std::min_element(lengths.begin(), lengths.end()) - lengths.begin());
+    const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
+    const auto shortest = static_cast<std::size_t>(least - lengths.begin());
+    const auto longest = static_cast<std::size_t>(most - lengths.begin());
     if (longest == shortest) return;
     const double weight = state_.dial.triangle_springs * state_.spring() /
                           (lengths[longest] / lengths[shortest] - 1.0 + softest_triangle);

@@ -24,7 +24,7 @@ int flip_for_fit(FitState& state);
 /// Computes a step of all nodes at once from a linear least-squares problem. The planes of the
 /// triangles move to their samples, as in the mesh optimization of Hoppe et al. 1993 (SIGGRAPH,
 /// 19), but along the mean of the scan's and the triangle's normals. Edges keep their rest lengths,
-/// and nodes the middles of their rings. Solved by 15 steps of conjugate gradients over blocks of 3
+/// and nodes the middles of their rings. Solved by 10 steps of conjugate gradients over blocks of 3
 /// by 3; full accuracy is not needed, because the next round solves again. A sparse factorization
 /// would take ten times as long.
 ///
@@ -46,5 +46,19 @@ int polish_nodes(FitState& state, int passes);
 /// smallest step that enlarges the angles, or towards the middle of its ring, to the position that
 /// adds least distance. Returns the number of moves.
 int mend_angles(FitState& state, double least_angle);
+
+/// Counts of fit_to_samples.
+struct SurfaceFitReport {
+  int rounds = 0;
+  int flips = 0;
+  int relocations = 0;
+  int polished = 0;  ///< moves of single nodes
+};
+
+/// Fits a mesh to the samples of a scan. Nodes move, edges are flipped and nodes relocated while
+/// the distance falls and the evenness of the triangles stays near the wanted one. One weight,
+/// between even and close, is controlled by the mean edge ratio reached. Throws Error(Cancelled).
+/// The result does not depend on the number of threads.
+SurfaceFitReport fit_to_samples(FitState& state, const Execution& execution);
 
 }  // namespace wscvt
