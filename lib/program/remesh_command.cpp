@@ -10,7 +10,9 @@
 #include "exit_code.h"
 #include "output_paths.h"
 #include "remesh_arguments.h"
+#include "toolbox/exchange/tetrahedra_files.h"
 #include "toolbox/map/scan_harmonics.h"
+#include "toolbox/tetrahedra/tetrahedra.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/file_name.h"
@@ -61,6 +63,19 @@ void check_coefficients_path(const std::string& path) {
   if (path.empty() || is_other || ending_of(path) == ".json" || ending_of(path) == ".sh") return;
   refuse("\"" + path +
          "\" is no name for coefficients. Give a name that ends in .json, or in .sh for SHTOOLS.");
+}
+
+/// Writes the tetrahedra that the call asks for. Returns lines for the log.
+std::vector<std::string> write_all_tetrahedra(const SimulationArguments& simulation,
+                                              IndexedMesh surface, Work& work) {
+  if (simulation.tetrahedra.empty()) return {};
+  const TetrahedralMesh body =
+      tetrahedra_in(std::move(surface), simulation.tetrahedra_edge, work.execution());
+  for (const std::string& path : simulation.tetrahedra) {
+    work.write(path,
+               [&](const std::string& name, const Execution&) { write_tetrahedra(name, body); });
+  }
+  return {tetrahedra_line(body)};
 }
 
 }  // namespace
@@ -130,6 +145,7 @@ int run(const RemeshArguments& arguments) {
       write_distance_grid(path, result, simulation.options, origin, execution);
     });
   }
+  const auto filled = write_all_tetrahedra(simulation, in_frame(result.mesh, frame), work);
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
       write_report(path, result, origin, execution);
@@ -140,6 +156,7 @@ int run(const RemeshArguments& arguments) {
       write_coefficients(path, result);
     });
   }
+  if (!filled.empty()) work.print({}, filled);
   work.print_log(result, common.verbose);
   return Done;
 }

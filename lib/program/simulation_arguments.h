@@ -15,6 +15,8 @@ namespace wscvt::program {
 struct SimulationArguments {
   std::vector<std::string> nodes;  ///< files; the ending selects the format
   std::vector<std::string> grids;  ///< files of signed distances; the ending selects the format
+  std::vector<std::string> tetrahedra;  ///< files; the ending selects the format
+  double tetrahedra_edge = 0.0;         ///< longest wanted, length; 0: as the remesh's
   SimulationOptions options;
 };
 

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/tetrahedra/tetrahedra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "toolbox/tetrahedra/gmsh_library.h"
+#include "wscvt/base/equivalent_radius.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/base/portable_math.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+namespace {
+
+/// The faces of a tetrahedron, outward, each opposite to the corner of its number.
+constexpr std::array<std::array<std::size_t, 3>, 4> outer_faces = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+double mean_edge_of(const IndexedMesh& mesh) {
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
+    }
+  }
+  return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+}
+
+Triangle from_least(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+/// Throws unless the faces of single tetrahedra are the surface, in its turn.
+void check_surface(const TetrahedralMesh& mesh) {
+  std::set<Triangle> open;
+  bool is_kept = true;
+  for (const Tetrahedron& t : mesh.tetrahedra) {
+    for (const auto& [a, b, c] : outer_faces) {
+      if (open.erase(from_least({t[a], t[c], t[b]})) != 0) continue;
+      is_kept = open.insert(from_least({t[a], t[b], t[c]})).second && is_kept;
+    }
+  }
+  for (const Triangle& t : mesh.surface.triangles) {
+    is_kept = open.erase(from_least(t)) != 0 && is_kept;
+  }
+  if (is_kept && open.empty()) return;
+  throw Error(ErrorCode::NumericalFailure,
+              "Gmsh's tetrahedra do not have the surface that was given. Use another number of "
+              "nodes.");
+}
+
+void measure(TetrahedralMesh& mesh) {
+  const std::vector<Vector3>& points = mesh.surface.points;
+  std::set<std::array<std::int32_t, 2>> edges;
+  double smallest = -1.0;  // cosines
+  double largest = 1.0;
+  for (const Tetrahedron& t : mesh.tetrahedra) {
+    std::array<Vector3, 4> normals;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& [a, b, c] = outer_faces[k];
+      normals[k] = doubled_area_normal(points[t[a]], points[t[b]], points[t[c]]).normalized();
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double cosine = std::clamp(-normals[i].dot(normals[j]), -1.0, 1.0);
+        smallest = std::max(smallest, cosine);
+        largest = std::min(largest, cosine);
+        edges.insert({std::min(t[i], t[j]), std::max(t[i], t[j])});
+      }
+    }
+  }
+  mesh.smallest_dihedral = portable::acos(smallest) * 180.0 / pi;
+  mesh.largest_dihedral = portable::acos(largest) * 180.0 / pi;
+  for (const auto& [a, b] : edges) {
+    mesh.mean_edge += (points[a] - points[b]).norm() / static_cast<double>(edges.size());
+  }
+}
+
+}  // namespace
+
+void require_tetrahedra() { require_gmsh(); }
+
+TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution& execution) {
+  require_in_range(edge, tetrahedra_edge_option);
+  const double volume = volume_of(surface, execution);
+  if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
+  execution.report(0.0, "Filling with tetrahedra");
+  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
+  const double radius = equivalent_radius(volume);
+  const Vector3 centre = surface.points.front();
+  std::vector<double> coordinates;
+  for (const Vector3& p : surface.points) {
+    const Vector3 own = (p - centre) / radius;
+    coordinates.insert(coordinates.end(), own.data(), own.data() + 3);
+  }
+  std::vector<std::size_t> corners;
+  for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
+  const GmshVolume filled =
+      gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
+  TetrahedralMesh mesh;
+  mesh.surface = std::move(surface);
+  for (std::size_t i = mesh.surface.points.size(); i < filled.coordinates.size() / 3; ++i) {
+    const double* const own = filled.coordinates.data() + 3 * i;
+    mesh.surface.points.push_back(centre + radius * Vector3(own[0], own[1], own[2]));
+  }
+  const std::vector<Vector3>& points = mesh.surface.points;
+  for (std::size_t k = 0; k + 3 < filled.corners.size(); k += 4) {
+    Tetrahedron t{};
+    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(filled.corners[k + c]);
+    if (six_volumes(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]],
+                    points[t[3]] - points[t[0]]) < 0.0) {
+      std::swap(t[0], t[1]);
+    }
+    mesh.tetrahedra.push_back(t);
+  }
+  check_surface(mesh);
+  measure(mesh);
+  return mesh;
+}
+
+std::string tetrahedra_line(const TetrahedralMesh& mesh) {
+  return "Tetrahedra: " + std::to_string(mesh.tetrahedra.size()) + " of " +
+         std::to_string(mesh.surface.points.size()) + " points, dihedral angles " +
+         format_number(mesh.smallest_dihedral, 3) + " to " +
+         format_number(mesh.largest_dihedral, 4) + " degrees, mean edge " +
+         format_number(mesh.mean_edge, 3);
+}
+
+}  // namespace wscvt

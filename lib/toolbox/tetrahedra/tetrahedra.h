@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt {
+
+/// Four points by their numbers. The first three are counter-clockwise seen from the fourth.
+using Tetrahedron = std::array<std::int32_t, 4>;
+
+/// A body of tetrahedra.
+struct TetrahedralMesh {
+  /// Points and triangles of the surface, and inner points behind the surface's.
+  IndexedMesh surface;
+  std::vector<Tetrahedron> tetrahedra;
+  double smallest_dihedral = 180.0;  ///< angle between two faces of a tetrahedron, degrees
+  double largest_dihedral = 0.0;     ///< degrees
+  double mean_edge = 0.0;            ///< over the edges of all tetrahedra, length
+};
+
+inline constexpr NumberOption<double> tetrahedra_edge_option = {
+    "tetrahedra-edge",
+    "longest wanted edge of tetrahedra",
+    0.0,
+    std::numeric_limits<double>::infinity(),
+    Ends::Both,
+    "inside the remesh, in the unit of the output. 0: as the remesh's edges"};
+
+/// Throws Error(InvalidInput) that says what to install, if Gmsh is not there.
+void require_tetrahedra();
+
+/// Fills a closed outward mesh with tetrahedra, by Gmsh. The surface keeps its points and
+/// triangles to the bit, and inner points are added. `edge`: the longest wanted edge inside,
+/// length; 0: as on the surface. It is reached gradually from the surface's edges. The same input
+/// gives the same result.
+///
+/// Gmsh (Geuzaine and Remacle 2009, Int. J. Numer. Meth. Eng. 79, 1309-1331) is opened only here,
+/// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
+/// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0 and for a mesh
+/// without volume; NumericalFailure if Gmsh cannot fill the mesh, as when it intersects itself;
+/// Cancelled before the work.
+TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
+                              const Execution& execution = Execution());
+
+/// Returns a line for a log: numbers and angles.
+std::string tetrahedra_line(const TetrahedralMesh& mesh);
+
+}  // namespace wscvt

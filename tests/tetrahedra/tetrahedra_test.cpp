@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/tetrahedra/tetrahedra.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "support/file_folder.h"
+#include "support/test_shapes.h"
+#include "toolbox/exchange/tetrahedra_files.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt {
+namespace {
+
+class Tetrahedra : public test::FileFolder {
+ protected:
+  void SetUp() override {
+    try {
+      require_tetrahedra();
+    } catch (const Error& error) {
+      GTEST_SKIP() << error.what();
+    }
+    FileFolder::SetUp();
+  }
+  std::string content(const std::string& name) const {
+    std::ifstream file(path(name));
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+double volume(const TetrahedralMesh& mesh, const Tetrahedron& t) {
+  const std::vector<Vector3>& p = mesh.surface.points;
+  return six_volumes(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]) / 6.0;
+}
+
+/// Fails unless the tetrahedra fill the surface, which is as it was.
+void expect_filled(const IndexedMesh& surface, const TetrahedralMesh& mesh) {
+  ASSERT_GE(mesh.surface.points.size(), surface.points.size());
+  EXPECT_EQ(mesh.surface.triangles, surface.triangles);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    EXPECT_EQ(mesh.surface.points[i], surface.points[i]) << "to the bit";
+  }
+  const double whole = volume_of(surface, Execution(1));
+  double sum = 0.0;
+  std::multiset<std::set<std::int32_t>> faces;
+  for (const Tetrahedron& t : mesh.tetrahedra) {
+    EXPECT_GT(volume(mesh, t), 0.0);
+    sum += volume(mesh, t);
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::set<std::int32_t> face(t.begin(), t.end());
+      face.erase(t[k]);
+      faces.insert(face);
+    }
+  }
+  EXPECT_NEAR(sum / whole, 1.0, 1e-10);
+  std::size_t open = 0;
+  for (const auto& face : faces) open += faces.count(face) == 1 ? 1U : 0U;
+  EXPECT_EQ(open, surface.triangles.size());
+  for (const auto& [a, b, c] : surface.triangles) EXPECT_EQ(faces.count({a, b, c}), 1U);
+}
+
+TEST_F(Tetrahedra, FillASurfaceAndKeepIt) {
+  const IndexedMesh grain = test::moved(test::lumpy(3), 1.0, Vector3(700.0, -20.0, 3.0));
+  const TetrahedralMesh mesh = tetrahedra_in(grain, 0.0, Execution(1));
+  expect_filled(grain, mesh);
+  EXPECT_GT(mesh.smallest_dihedral, 10.0);
+  EXPECT_LT(mesh.largest_dihedral, 170.0);
+}
+
+TEST_F(Tetrahedra, OfRemeshesHaveNoFlatOnes) {
+  for (const char* name : {"sand_5658.ply", "angular_6000.ply", "elongated_rough_8000.ply"}) {
+    SCOPED_TRACE(name);
+    RemeshOptions options;
+    options.node_count = 300;
+    const IndexedMesh grain =
+        remesh(read_mesh(std::string(WSCVT_MESHES_DIR) + "/" + name), options, Execution(1)).mesh;
+    const TetrahedralMesh mesh = tetrahedra_in(grain, 0.0, Execution(1));
+    expect_filled(grain, mesh);
+    // The study has the angles of a hundred remeshes.
+    EXPECT_GT(mesh.smallest_dihedral, 12.0);
+  }
+}
+
+TEST_F(Tetrahedra, FollowTheWantedEdgeInAnyUnit) {
+  const IndexedMesh ball = test::sphere(2);
+  const TetrahedralMesh usual = tetrahedra_in(ball, 0.0, Execution(1));
+  const TetrahedralMesh fine = tetrahedra_in(ball, 0.12, Execution(1));
+  EXPECT_GT(fine.tetrahedra.size(), 3 * usual.tetrahedra.size());
+  expect_filled(ball, fine);
+  const IndexedMesh tiny = test::moved(ball, 1e-5, Vector3(0.0, 0.0, 0.0));
+  const TetrahedralMesh small = tetrahedra_in(tiny, 0.12e-5, Execution(1));
+  expect_filled(tiny, small);
+  // Rounding of the unit may turn a tie; the number is the same but for that.
+  EXPECT_NEAR(
+      static_cast<double>(small.tetrahedra.size()) / static_cast<double>(fine.tetrahedra.size()),
+      1.0, 0.02);
+  EXPECT_NEAR(small.mean_edge / fine.mean_edge, 1e-5, 1e-7);
+}
+
+TEST_F(Tetrahedra, AreTheSameEachTimeAndInThreads) {
+  const IndexedMesh grain = test::lumpy(2);
+  const TetrahedralMesh first = tetrahedra_in(grain, 0.0, Execution(1));
+  std::vector<TetrahedralMesh> again(3);
+  std::vector<std::thread> threads;
+  for (TetrahedralMesh& one : again) {
+    threads.emplace_back([&] { one = tetrahedra_in(grain, 0.0, Execution(1)); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const TetrahedralMesh& one : again) {
+    EXPECT_EQ(one.tetrahedra, first.tetrahedra);
+    EXPECT_EQ(one.surface.points, first.surface.points);
+  }
+}
+
+TEST_F(Tetrahedra, AreRefusedWhereThereAreNone) {
+  const IndexedMesh grain = test::lumpy(1);
+  EXPECT_ERROR(tetrahedra_in(grain, -1.0), InvalidInput);
+  IndexedMesh inward = grain;
+  for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+  EXPECT_ERROR(tetrahedra_in(inward, 0.0), InvalidInput);
+  // Two balls that intersect.
+  const IndexedMesh crossed =
+      test::joined(test::sphere(2), test::moved(test::sphere(2), 1.0, Vector3(0.7, 0.1, 0.2)));
+  EXPECT_ERROR(tetrahedra_in(crossed, 0.0), NumericalFailure);
+  // After a failure the next one works.
+  expect_filled(grain, tetrahedra_in(grain, 0.0));
+}
+
+TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {
+  const IndexedMesh grain = test::lumpy(2);
+  const TetrahedralMesh mesh = tetrahedra_in(grain, 0.3, Execution(1));
+  ASSERT_GT(mesh.surface.points.size(), grain.points.size());
+  for (const char* name : {"a.vtu", "a.msh", "a.inp"}) write_tetrahedra(path(name), mesh);
+  const std::string vtu = content("a.vtu");
+  EXPECT_NE(vtu.find("NumberOfCells=\"" + std::to_string(mesh.tetrahedra.size()) + "\""),
+            std::string::npos);
+  const IndexedMesh read = read_mesh(path("a.msh"));
+  EXPECT_EQ(read.triangles.size(), grain.triangles.size()) << "the surface of the tetrahedra";
+  EXPECT_NEAR(volume_of(read, Execution(1)) / volume_of(grain, Execution(1)), 1.0, 1e-12);
+
+  // The rows "element, face" name each triangle of the surface once.
+  const std::string inp = content("a.inp");
+  const std::size_t at = inp.find("*SURFACE, NAME=surface, TYPE=ELEMENT\n");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_NE(inp.find("*ELEMENT, TYPE=C3D4, ELSET=grain\n1, "), std::string::npos);
+  EXPECT_NE(inp.find("GENERATE\n1, " + std::to_string(grain.points.size()) + "\n"),
+            std::string::npos);
+  std::istringstream rows(inp.substr(inp.find('\n', at) + 1));
+  // Nodes of the faces S1 to S4, from the manuals of Abaqus and CalculiX.
+  const std::vector<std::vector<std::size_t>> corners = {
+      {0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  std::multiset<std::set<std::int32_t>> named;
+  for (std::string row; std::getline(rows, row);) {
+    const Tetrahedron& t = mesh.tetrahedra.at(std::stoul(row) - 1);
+    std::set<std::int32_t> face;
+    for (const std::size_t k : corners.at(std::stoul(row.substr(row.find('S') + 1)) - 1)) {
+      face.insert(t[k]);
+    }
+    named.insert(face);
+  }
+  EXPECT_EQ(named.size(), grain.triangles.size());
+  for (const auto& [a, b, c] : grain.triangles) EXPECT_EQ(named.count({a, b, c}), 1U);
+  EXPECT_ERROR(write_tetrahedra(path("a.ply"), mesh), InvalidInput);
+}
+
+}  // namespace
+}  // namespace wscvt
