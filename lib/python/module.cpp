@@ -18,6 +18,7 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_extract(module);
   wscvt::python::bind_attributes(module);
   wscvt::python::bind_convex(module);
+  wscvt::python::bind_fabric(module);
   wscvt::python::bind_fragment(module);
   wscvt::python::bind_clump(module);
   wscvt::python::bind_files(module);

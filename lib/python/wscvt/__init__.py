@@ -26,7 +26,7 @@ from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __v
 
 __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
-           "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
+           "fabric", "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
            "sample", "signed_distances", "templates", "write_mesh"]
 
 
@@ -219,6 +219,31 @@ def extract(labels, voxel_size=1.0, **options):
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
     return _wscvt.extract(labels, voxel_size, **options)
+
+
+def fabric(labels, voxel_size=1.0, *, scan=None, **options):
+    """Measures the contacts of a volume of labels, as "wscvt fabric" does, and returns a dictionary.
+
+    result = wscvt.fabric(tifffile.imread("labels.tif"), 0.012, scan=tifffile.imread("scan.tif"))
+    contacts = result["contacts"]
+    areas = contacts["area"][contacts["contact"]]
+
+    labels: (nz, ny, nx) whole numbers, 0 to 4294967294.
+    voxel_size: length, or three along x, y and z. Voxel (0, 0, 0) begins at the origin.
+    scan: the grey values from which wscvt segment made the labels, (nz, ny, nx). Their blur then
+        corrects areas and false contacts. None: the labels are exact.
+    background: the label of the background, 0 by default.
+    progress: as for remesh.
+
+    "contacts" and "grains" are dictionaries of arrays with one row per pair of labels that touch,
+    and per label. Their names are the columns of contacts.csv and grains.csv, with "centre",
+    "normal" and "branch" as (n, 3); "contact" is False for a narrow gap. "tensor" and
+    "branch_tensor" are (3, 3). "anisotropy", "coordination" and "blur" (length, or None) are
+    numbers. Raises Error, and TypeError for labels that are not whole numbers.
+    """
+    if isinstance(voxel_size, numbers.Real):
+        voxel_size = (voxel_size,) * 3
+    return _wscvt.fabric(labels, voxel_size, scan=scan, **options)
 
 
 def clump(vertices, faces=None, spheres=20, *, output=None, **options):
