@@ -3,6 +3,7 @@
 
 #include "command.h"
 #include "exit_code.h"
+#include "toolbox/volume/label_grains.h"
 
 namespace wscvt::program {
 
@@ -14,6 +15,14 @@ CLI::App& add_command(CLI::App& program, DescribeArguments& arguments) {
   add_file_argument(app, "grain", arguments.measure.grain,
                     mesh_argument_text("Closed mesh", MeshUse::Read))
       ->required();
+  add_typed(app, "--" + std::string(voxel_size_option.key),
+            [&arguments](std::string_view text) {
+              arguments.measure.voxel_size = from_typed(text, voxel_size_option);
+            })
+      ->description("Size of a voxel of the scan, " + range_text(voxel_size_option) +
+                    ", in the mesh's unit: adds the values without the voxels' error, with "
+                    "intervals. For grains of wscvt extract")
+      ->type_name("N");
   add_measure_arguments(app, arguments.measure);
   return app;
 }

@@ -8,6 +8,7 @@
 #include "output_paths.h"
 #include "toolbox/clump/sphere_mesh.h"
 #include "toolbox/exchange/clump_files.h"
+#include "toolbox/resolution/resolution.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/measures/grain_measures.h"
@@ -33,7 +34,7 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
     check_output_paths({{"the grain", arguments.grain}, {"the reference", reference.value_or("")}},
                        named_reports(common.reports), common.overwrite);
     for (const std::string& report : common.reports) {
-      check_descriptor_report(report, reference.has_value());
+      check_descriptor_report(report, reference.has_value(), arguments.voxel_size.has_value());
     }
   });
   Work work(common);
@@ -49,9 +50,17 @@ void measure(const MeasureArguments& arguments, const std::optional<std::string>
   NamedMesh grain = read(arguments.grain, 0.0, 0.5 * reading_share);
   std::optional<NamedMesh> compared;
   if (reference) compared = read(*reference, 0.5 * reading_share, reading_share);
-  const GrainMeasures measures =
-      measure_grain(std::move(grain), std::move(compared), arguments.options,
-                    work.execution().part(reading_share, 1.0));
+  const double share = arguments.voxel_size ? 0.5 : 1.0;
+  GrainMeasures measures = measure_grain(std::move(grain), std::move(compared), arguments.options,
+                                         work.execution().part(reading_share, share));
+  if (arguments.voxel_size) {
+    ResolutionOptions options;
+    options.voxel_size = *arguments.voxel_size;
+    options.details = arguments.options;
+    measures.resolution =
+        measure_resolution(measures.grain.checked.mesh, measures.grain.descriptors, options,
+                           work.execution().part(share, 1.0));
+  }
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
       write_report(path, measures, origin_of(arguments.grain), execution);

@@ -15,6 +15,7 @@ struct MeasureArguments {
   std::string grain;  ///< file
   CommonArguments common;
   DetailedOptions options;
+  std::optional<double> voxel_size;  ///< of the scan, for the resolution; empty: not measured
 };
 
 /// Adds the arguments. Parsing changes `arguments`, which must outlive `app`.

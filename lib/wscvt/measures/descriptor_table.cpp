@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
@@ -164,6 +165,54 @@ std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values)
     cells.push_back({label_cell(row.label, row.unit), format_number(row.value)});
   }
   return aligned_lines(cells);
+}
+
+std::vector<std::vector<std::string>> resolution_rows(const std::vector<DescriptorValue>& values,
+                                                      const Resolution& resolution) {
+  std::vector<std::vector<std::string>> cells = {
+      {"Descriptor", "value", "corrected", "low", "high"}};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const ResolvedValue& row = resolution.rows[k];
+    cells.push_back({label_cell(values[k].label, values[k].unit), format_number(row.value)});
+    if (row.is_resolved()) {
+      for (const double value : {row.corrected, row.low, row.high}) {
+        cells.back().push_back(format_number(value));
+      }
+    } else {
+      cells.back().insert(cells.back().end(), {"not resolved", "", ""});
+    }
+  }
+  return cells;
+}
+
+std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values,
+                                     const Resolution& resolution) {
+  return aligned_lines(resolution_rows(values, resolution));
+}
+
+std::string resolution_sentence(const Resolution& resolution) {
+  constexpr std::pair<const char*, const char*> told[] = {{"area", "area"},
+                                                          {"sphericity_wadell", "sphericity"},
+                                                          {"convexity", "convexity"},
+                                                          {"roundness_wadell", "roundness"},
+                                                          {"sq", "Sq"}};
+  std::string errors;
+  std::string missing;
+  for (const auto& [key, name] : told) {
+    const auto row = std::find_if(resolution.rows.begin(), resolution.rows.end(),
+                                  [key = key](const ResolvedValue& one) { return one.key == key; });
+    if (row == resolution.rows.end()) continue;
+    std::string& list = row->is_resolved() ? errors : missing;
+    if (!list.empty()) list += ", ";
+    list += name;
+    if (!row->is_resolved()) continue;
+    list += " " + format_error(relative_error_percent(row->value, row->corrected)) + " %";
+  }
+  std::string sentence = "The grain is " + format_number(resolution.voxels_across, 3) +
+                         " voxels across. Errors by the voxels, about: " +
+                         (errors.empty() ? "none is known" : errors) + ".";
+  if (!missing.empty()) sentence += " Not resolved: " + missing + ".";
+  return sentence;
 }
 
 std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/voxel_resolution.h"
 
 namespace wscvt {
 
@@ -48,7 +49,19 @@ struct ComparisonNames {
 
 /// Returns an aligned table: descriptor / value, or descriptor / reference / value / error %.
 std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values);
+/// With the columns corrected, low and high. `resolution` has a row for each value.
+std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values,
+                                     const Resolution& resolution);
 std::vector<std::string> table_lines(const std::vector<DescriptorComparison>& rows,
                                      const ComparisonNames& names);
+
+/// Returns one row for the head and one for each value: label and unit, value, corrected, low,
+/// high. The last two are empty if the descriptor is not resolved.
+std::vector<std::vector<std::string>> resolution_rows(const std::vector<DescriptorValue>& values,
+                                                      const Resolution& resolution);
+
+/// Returns a sentence about what the voxels did: voxels across, the errors of area, sphericity,
+/// convexity and roundness, and which of them are not resolved.
+std::string resolution_sentence(const Resolution& resolution);
 
 }  // namespace wscvt

@@ -9,6 +9,7 @@
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/repair/scan_options.h"
 
 namespace wscvt {
@@ -31,6 +32,7 @@ struct GrainMeasures {
   MeasuredGrain grain;
   std::optional<MeasuredGrain> reference;
   std::optional<MeshDistances> distances;  ///< between the two; length
+  std::optional<Resolution> resolution;    ///< of the grain, if the caller measures it
 };
 
 /// Measures one grain, or a grain, its reference and the distances between them. Throws Error as

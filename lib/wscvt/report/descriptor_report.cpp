@@ -40,6 +40,13 @@ Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
     report["descriptors"] = json_of(values);
   }
   report["descriptor_names"] = json_names_of(values);
+  if (measures.resolution) {
+    Json& resolved = report["resolution"] = {{"voxel_size", measures.resolution->voxel_size},
+                                             {"voxels_across", measures.resolution->voxels_across}};
+    for (const ResolvedValue& row : measures.resolution->rows) {
+      resolved[row.key] = {{"corrected", row.corrected}, {"low", row.low}, {"high", row.high}};
+    }
+  }
   const std::vector<NamedMass> bodies = masses(measures);
   report["mass"] = json_of(bodies.back().mass);
   if (measures.reference) {
@@ -95,6 +102,9 @@ std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
     append(table_lines(compare_descriptors(measures),
                        {measures.reference->name, measures.grain.name}));
     append(distance_lines(measures));
+  } else if (measures.resolution) {
+    lines.push_back("Resolution  " + resolution_sentence(*measures.resolution));
+    append(table_lines(list_descriptors(measures.grain.descriptors), *measures.resolution));
   } else {
     append(table_lines(list_descriptors(measures.grain.descriptors)));
   }
@@ -130,6 +140,9 @@ std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& o
     page.add_table(compare_descriptors(measures), {measures.reference->name, grain.name});
     page.add_heading("Distances");
     page.add_lines(distance_lines(measures));
+  } else if (measures.resolution) {
+    page.add_paragraph(resolution_sentence(*measures.resolution));
+    page.add_rows(resolution_rows(list_descriptors(grain.descriptors), *measures.resolution));
   } else {
     page.add_table(list_descriptors(grain.descriptors));
   }

@@ -72,7 +72,7 @@ std::string descriptor_json(const GrainMeasures& measures, const ReportOrigin& o
 
 /// Returns the measures as CSV (RFC 4180) with a header and one row. Every member of the JSON
 /// document outside of lists is a column, named by its path, joined with dots. Remarks are one
-/// field. Measures with a reference have more columns.
+/// field. Measures with a reference or with the resolution have more columns.
 std::string descriptor_csv(const GrainMeasures& measures, const ReportOrigin& origin = {});
 
 /// Returns the measures as an HTML report, like report_html. Pictures and histograms show the grain
@@ -99,8 +99,9 @@ bool shows_scan(const std::string& path);
 void check_remesh_report(const std::string& path);
 
 /// Like check_remesh_report, for a report of descriptors, whose tables have more columns with a
-/// reference.
-void check_descriptor_report(const std::string& path, bool with_reference);
+/// reference or with the resolution.
+void check_descriptor_report(const std::string& path, bool with_reference,
+                             bool with_resolution = false);
 
 /// Writes the report in the format of the file's name. report_html and report_json replace the
 /// file, completely or not at all; report_csv appends a row to a table (see append_to_table). Only

@@ -13,11 +13,17 @@ namespace wscvt {
 namespace {
 
 /// Only its columns matter.
-std::string example_csv(bool with_reference) {
+std::string example_csv(bool with_reference, bool with_resolution) {
   GrainMeasures measures;
   if (with_reference) {
     measures.reference.emplace();
     measures.distances.emplace();
+  }
+  if (with_resolution) {
+    measures.resolution.emplace();
+    for (const DescriptorValue& row : list_descriptors(measures.grain.descriptors)) {
+      measures.resolution->rows.push_back({row.key});
+    }
   }
   return descriptor_csv(measures, {});
 }
@@ -48,8 +54,8 @@ bool shows_scan(const std::string& path) { return report_format(path) == ReportF
 
 void check_remesh_report(const std::string& path) { check(path, report_csv(RemeshResult(), {})); }
 
-void check_descriptor_report(const std::string& path, bool with_reference) {
-  check(path, example_csv(with_reference));
+void check_descriptor_report(const std::string& path, bool with_reference, bool with_resolution) {
+  check(path, example_csv(with_reference, with_resolution));
 }
 
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,

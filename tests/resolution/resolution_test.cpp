@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/resolution/resolution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "toolbox/resolution/mesh_voxels.h"
+#include "wscvt/base/pi.h"
+#include "wscvt/measures/descriptor_table.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
+#include "wscvt/surface/quadric_surface.h"
+
+namespace wscvt {
+namespace {
+
+const Execution one_thread(1);
+
+IndexedMesh ellipsoid(const Vector3& axes) {
+  return mesh_of_surface(Ellipsoid(axes), 48, one_thread);
+}
+
+IndexedMesh checked(IndexedMesh mesh) {
+  return check_mesh(std::move(mesh), MeshCheckOptions(), one_thread).mesh;
+}
+
+DetailedDescriptors described(const IndexedMesh& mesh) {
+  return describe_shape_in_detail(mesh, DetailedOptions(), one_thread);
+}
+
+VoxelPose pose(int number) {
+  const double turn = 0.7 + 1.1 * number;
+  const Vector3 axis = Vector3(std::cos(turn), std::sin(2.0 * turn), 0.3).normalized();
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(turn, axis)),
+          Vector3(1.1 + 0.1 * number, 1.9 - 0.1 * number, 1.5)};
+}
+
+std::int64_t count_of(const std::vector<VoxelStretch>& voxels) {
+  std::int64_t count = 0;
+  for (const VoxelStretch& one : voxels) count += one.end - one.begin;
+  return count;
+}
+
+Resolution resolution_of(const IndexedMesh& body, double size, const VoxelPose& at) {
+  const IndexedMesh seen =
+      checked(surface_of_voxels(mesh_voxels(body, size, at), ResolutionOptions().smoothing, size));
+  ResolutionOptions options;
+  options.voxel_size = size;
+  return measure_resolution(seen, described(seen), options, one_thread);
+}
+
+const ResolvedValue& row_of(const Resolution& resolution, const std::string& key) {
+  for (const ResolvedValue& row : resolution.rows) {
+    if (row.key == key) return row;
+  }
+  throw std::logic_error("no row " + key);
+}
+
+TEST(MeshVoxels, AreThoseWhoseCentresAreInside) {
+  const Vector3 axes(5.0, 4.0, 3.0);
+  const IndexedMesh body = ellipsoid(axes);
+  VoxelPose at;
+  at.shift = Vector3(1.0, 1.0, 1.0);
+  const double size = 0.37;
+  const std::vector<VoxelStretch> voxels = mesh_voxels(body, size, at);
+  std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> rows;
+  for (const VoxelStretch& one : voxels) rows[{one.z, one.y}].push_back({one.begin, one.end});
+  int differing = 0;
+  for (int z = 0; z < 30; ++z) {
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 30; ++x) {
+        const Vector3 centre = size * (Vector3(x + 0.5, y + 0.5, z + 0.5) - at.shift) - axes;
+        const double level = centre.cwiseQuotient(axes).norm();
+        bool found = false;
+        for (const auto& [begin, end] : rows[{z, y}]) found = found || (begin <= x && x < end);
+        // The mesh is a polyhedron inside the ellipsoid, by at most an eighth of the square of its
+        // edges, 1/40 of the radius.
+        if (level > 1.0 || level < 0.997) differing += found == (level < 1.0) ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_EQ(differing, 0);
+}
+
+TEST(MeshVoxels, HaveTheVolumeInEveryPose) {
+  const IndexedMesh body = read_mesh(std::string(WSCVT_MESHES_DIR) + "/sand_5658.ply");
+  const double volume = describe_shape(body, one_thread).volume;
+  const double size = std::cbrt(volume) / 40.0;
+  for (int k = 0; k < 8; ++k) {
+    const double voxels = static_cast<double>(count_of(mesh_voxels(body, size, pose(k))));
+    // 64,000 voxels, of which some 10,000 are at the surface: their rounding adds up as its root.
+    EXPECT_NEAR(voxels * size * size * size / volume, 1.0, 3.0 * 100.0 / 64000.0) << k;
+  }
+}
+
+TEST(MeshVoxels, RefuseWhatIsTooLongOrTooThin) {
+  const IndexedMesh body = ellipsoid(Vector3::Ones());
+  test::expect_error(ErrorCode::InvalidInput, [&] { mesh_voxels(body, 1e-5, {}); });
+  test::expect_error(ErrorCode::InvalidInput,
+                     [&] { surface_of_voxels(mesh_voxels(body, 100.0, {}), 20, 100.0); });
+}
+
+/// Bodies of which none was used for the orders.
+std::map<std::string, IndexedMesh> bodies() {
+  std::map<std::string, IndexedMesh> all;
+  all["ellipsoid"] = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  for (const char* name : {"angular_6000", "elongated_rough_8000", "sand_7228"}) {
+    all[name] = checked(read_mesh(std::string(WSCVT_MESHES_DIR) + "/" + name + ".ply"));
+  }
+  return all;
+}
+
+TEST(Resolution, IntervalsCoverAndCorrectedValuesAreCloser) {
+  const std::vector<std::string> keys = {
+      "area",     "sphericity_wadell", "convexity", "zingg_elongation_inertia", "roundness_wadell",
+      "feret_min"};
+  std::map<std::string, int> covered;
+  std::map<std::string, int> resolved;
+  std::map<std::string, double> raw;
+  std::map<std::string, double> left;
+  for (const auto& [name, body] : bodies()) {
+    const DetailedDescriptors truth = described(body);
+    std::map<std::string, double> values;
+    for (const DescriptorValue& row : list_descriptors(truth)) values[row.key] = row.value;
+    for (const int across : {10, 15, 20, 30, 40}) {
+      const int poses = across < 30 ? 4 : 40 / across;  // the larger take the time
+      for (int k = 0; k < poses; ++k) {
+        const Resolution found = resolution_of(body, truth.equivalent_diameter / across, pose(k));
+        EXPECT_NEAR(found.voxels_across, across, 0.03 * across);
+        for (const std::string& key : keys) {
+          const ResolvedValue& row = row_of(found, key);
+          if (!row.is_resolved()) continue;
+          ++resolved[key];
+          if (row.low <= values[key] && values[key] <= row.high) ++covered[key];
+          if (across < 20) continue;
+          raw[key] += std::abs(row.value / values[key] - 1.0);
+          left[key] += std::abs(row.corrected / values[key] - 1.0);
+        }
+      }
+    }
+  }
+  for (const std::string& key : keys) {
+    SCOPED_TRACE(key);
+    EXPECT_GE(covered[key], 0.9 * resolved[key]) << resolved[key];
+    std::printf("%s: %d of %d covered, error %.2f of %.2f\n", key.c_str(), covered[key],
+                resolved[key], left[key], raw[key]);
+  }
+  EXPECT_LT(left["area"], 0.7 * raw["area"]);
+  EXPECT_LT(left["sphericity_wadell"], 0.7 * raw["sphericity_wadell"]);
+  EXPECT_LT(left["convexity"], 0.5 * raw["convexity"]);
+}
+
+TEST(Resolution, RoundnessOfFewVoxelsAndRoughnessAreNotResolved) {
+  const IndexedMesh body = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  const double diameter = described(body).equivalent_diameter;
+  const Resolution few = resolution_of(body, diameter / 18.0, pose(0));
+  EXPECT_FALSE(row_of(few, "roundness_wadell").is_resolved());
+  EXPECT_FALSE(row_of(few, "sq").is_resolved());
+  EXPECT_TRUE(row_of(few, "area").is_resolved());
+  const std::string sentence = resolution_sentence(few);
+  EXPECT_NE(sentence.find("Not resolved: roundness, Sq."), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("18.0 voxels across"), std::string::npos) << sentence;
+}
+
+TEST(Resolution, KeepsTheValuesAndTheirOrder) {
+  const IndexedMesh body = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  const DetailedDescriptors descriptors = described(body);
+  ResolutionOptions options;
+  options.voxel_size = 0.1;
+  const Resolution found = measure_resolution(body, descriptors, options, one_thread);
+  const Resolution again = measure_resolution(body, descriptors, options, Execution(3));
+  const std::vector<DescriptorValue> rows = list_descriptors(descriptors);
+  ASSERT_EQ(found.rows.size(), rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(found.rows[k].key, rows[k].key);
+    if (std::isfinite(rows[k].value)) {
+      EXPECT_EQ(found.rows[k].value, rows[k].value);
+    }
+    if (!found.rows[k].is_resolved()) continue;
+    EXPECT_EQ(found.rows[k].corrected, again.rows[k].corrected);
+    EXPECT_LE(found.rows[k].low, found.rows[k].corrected);
+    EXPECT_GE(found.rows[k].high, found.rows[k].corrected);
+  }
+  for (const double size : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options.voxel_size = size;
+    test::expect_error(ErrorCode::InvalidInput,
+                       [&] { measure_resolution(body, descriptors, options, one_thread); });
+  }
+  options.voxel_size = 50.0;  // thinner than a voxel: nothing is resolved, but nothing is refused
+  for (const ResolvedValue& row : measure_resolution(body, descriptors, options, one_thread).rows) {
+    EXPECT_FALSE(row.is_resolved()) << row.key;
+  }
+}
+
+}  // namespace
+}  // namespace wscvt
