@@ -267,7 +267,7 @@ TEST_F(SegmentationOfAFile, TakesFractionsNegativeValuesAndWhatIsNoNumber) {
     hounsfield.push_back(
         static_cast<std::int16_t>((made_.labels[k] != 0 ? 1500 : -1000) + 300 * noise));
   }
-  for (std::size_t k = 0; k < 2 * 30 * 28; ++k)
+  for (std::size_t k = 0; k < 30 * 28; ++k)
     fractions[k] = std::numeric_limits<float>::quiet_NaN();
   fractions[5000] = 9e20F;
   fractions[5555] = -1e25F;
@@ -359,6 +359,99 @@ TEST_F(SegmentationOfTwoMinerals, TakesBothNamesThePeaksAndFollowsItsAdvice) {
   options.phases = 2;
   options.threshold = 100.0;
   EXPECT_ERROR(segmented(options), InvalidInput);
+}
+
+TEST_F(SegmentationOfTwoMinerals, DenseCoresAndStrongNoiseLeaveTheGrains) {
+  // Cores ten times as bright as the grains, of any share of the voxels.
+  for (const double core : {1.0, 3.0}) {
+    make({1000, 3000, 3000}, 200);
+    for (const double x : {15.0, 40.0}) {
+      for (const double y : {14.0, 38.0}) {
+        for (const double z : {10.0, 29.0}) made_.fill_ball(30000, {x, y, z}, core);
+      }
+    }
+    write_made();
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.grains.size(), 8U) << core;
+    EXPECT_NEAR(found.threshold, 2000.0, 50.0) << core;
+    // A phase of more than a thousandth of the voxels is named, and can be had alone.
+    EXPECT_EQ(found.peaks.size(), core > 2.0 ? 3U : 2U);
+    if (core < 2.0) continue;
+    EXPECT_NE(looks(found).find("--phases 1"), std::string::npos) << looks(found);
+    SegmentationOptions options;
+    options.phases = 1;
+    options.smallest = 50;
+    EXPECT_EQ(segmented(options).grains.size(), 8U);
+    EXPECT_LT(segmented(options).material, found.material / 5);
+  }
+  // Noise as strong as .8 of the contrast.
+  make({1000, 1100, 1100}, 139);
+  write_made();
+  const Segmentation noisy = segmented();
+  EXPECT_EQ(noisy.grains.size(), 8U);
+  EXPECT_NEAR(noisy.threshold, 1050.0, 5.0);
+  EXPECT_NE(looks(noisy).find("The noise is strong"), std::string::npos) << looks(noisy);
+}
+
+TEST_F(SegmentationOfTwoMinerals, MasksOfPhasesAreNoLabels) {
+  for (const Label step : {1U, 127U}) {
+    make({0, step, 2 * step}, 0);
+    write_made();
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.grains.size(), 8U) << step;
+    EXPECT_EQ(looks(found).find("labels already"), std::string::npos) << looks(found);
+    EXPECT_NE(looks(found).find("--phases 1"), std::string::npos) << looks(found);
+    SegmentationOptions options;
+    options.phases = 1;
+    EXPECT_EQ(segmented(options).grains.size(), 2U) << step;
+  }
+}
+
+TEST_F(SegmentationOfAFile, BlurAndMedianDoNotMoveCurvedSurfaces) {
+  // The share of a voxel in the body, from four points along each axis; then a Gaussian blur of .8
+  // voxels and noise of 5 % of the contrast.
+  const Vector3 middle(15.7, 16.1, 15.9);
+  for (const Vector3& axes : {Vector3(8, 8, 8), Vector3(10, 10, 10), Vector3(13, 10, 8)}) {
+    made_ = MadeVolume({32, 32, 32});
+    std::vector<double> share;
+    double inside = 0.0;
+    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+      const Vector3 voxel(static_cast<double>(k % 32), static_cast<double>(k / 32 % 32),
+                          static_cast<double>(k / 1024));
+      int in = 0;
+      for (int point = 0; point < 64; ++point) {
+        const Vector3 at =
+            voxel + Vector3(point % 4 + 0.5, point / 4 % 4 + 0.5, point / 16 + 0.5) / 4.0;
+        if ((at - middle).cwiseQuotient(axes).squaredNorm() <= 1.0) ++in;
+      }
+      share.push_back(in / 64.0);
+      inside += in / 64.0;
+    }
+    for (const std::size_t step : {1U, 32U, 1024U}) {
+      const std::vector<double> before = share;
+      for (std::size_t k = 3 * step; k + 3 * step < share.size(); ++k) {
+        double sum = 0.0;
+        double weights = 0.0;
+        for (int away = -3; away <= 3; ++away) {
+          const double weight = std::exp(-0.5 * away * away / 0.64);
+          sum += weight * before[k + step * static_cast<std::size_t>(away + 3) - 3 * step];
+          weights += weight;
+        }
+        share[k] = sum / weights;
+      }
+    }
+    std::mt19937 random(7);
+    for (std::size_t k = 0; k < share.size(); ++k) {
+      // Uniform noise of the same variance.
+      const double noise = 8.66 * (2.0 * random() / 4294967295.0 - 1.0);
+      made_.labels[k] = static_cast<Label>(std::lround(100.0 + 100.0 * share[k] + noise));
+    }
+    write_made();
+    const Segmentation found = segmented();
+    ASSERT_EQ(found.grains.size(), 1U);
+    // The median of 27 voxels and the blur take 6 % of the ball of 8 voxels radius.
+    EXPECT_NEAR(static_cast<double>(found.material) / inside, 1.0, 0.02) << axes.transpose();
+  }
 }
 
 TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
@@ -642,7 +735,7 @@ TEST_F(SegmentationOfAFile, ShowsSlicesWithOutlines) {
   for (Label& label : made_.labels) label = 10;
   made_.fill_box(90, {4, 10, 6}, {24, 20, 14});
   made_.fill_box(90, {27, 8, 5}, {37, 22, 15});
-  made_.fill_box(90, {19, 24, 9}, {22, 27, 12});
+  made_.fill_box(90, {19, 24, 9}, {23, 28, 13});
   made_.at(0, 0, 0) = 11;  // not a mask
   write_made("1 1 3");
   const Segmentation found = segmented();

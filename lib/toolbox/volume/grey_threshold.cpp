@@ -9,6 +9,12 @@ namespace wscvt {
 
 namespace {
 
+/// Of so many voxels, a peak has at least one.
+constexpr std::uint64_t fewest_of = 1000;
+
+/// Windows in the range of all values but a thousandth at each end.
+constexpr std::size_t windows = 16;
+
 /// Counts and their moments below a level.
 struct Side {
   double count = 0.0;
@@ -23,6 +29,12 @@ Side side_of(const std::vector<std::uint64_t>& counts, std::size_t begin, std::s
     side.sum += static_cast<double>(counts[k]) * static_cast<double>(k);
   }
   return side;
+}
+
+/// Returns a width of windows: wide against the noise of the counts, narrow against the distance of
+/// the peaks.
+std::size_t peak_width(double contrast) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(contrast / 8.0)));
 }
 
 /// Returns the middle of the fullest window of `width` values; of a flat peak, the peak's middle.
@@ -55,20 +67,10 @@ std::vector<double> window_sums(const std::vector<double>& counts, std::size_t w
   return sums;
 }
 
-/// Returns the peaks of few values: each value is one.
-std::vector<GreyPeak> peaks_of_few(const std::vector<std::uint64_t>& counts) {
-  std::vector<GreyPeak> peaks;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    if (counts[k] > 0) peaks.push_back({k, k, counts[k]});
-  }
-  return peaks;
-}
-
 /// Removes the weakest peak while there is one that does not stand out.
 void drop_weak_peaks(const std::vector<double>& heights, std::uint64_t all,
                      std::vector<GreyPeak>& peaks) {
   constexpr double highest_valley = 0.6;
-  constexpr std::uint64_t fewest = 1000;  // of so many voxels one
   while (peaks.size() > 1) {
     std::size_t weakest = 0;
     double most = -1.0;
@@ -77,7 +79,7 @@ void drop_weak_peaks(const std::vector<double>& heights, std::uint64_t all,
       if (k > 0) valley = heights[peaks[k - 1].valley];
       if (k + 1 < peaks.size()) valley = std::max(valley, heights[peaks[k].valley]);
       double share = valley / heights[peaks[k].value];
-      if (peaks[k].voxels * fewest < all) share += 1.0;
+      if (peaks[k].voxels * fewest_of < all) share += 1.0;
       if (share > most) {
         most = share;
         weakest = k;
@@ -92,6 +94,68 @@ void drop_weak_peaks(const std::vector<double>& heights, std::uint64_t all,
     heir.voxels += peaks[weakest].voxels;
     if (is_joined_below) heir.valley = peaks[weakest].valley;
     peaks.erase(peaks.begin() + static_cast<std::ptrdiff_t>(weakest));
+  }
+}
+
+/// Returns the distance of the values that bound all counts in [begin, end) but a thousandth at
+/// each end.
+std::size_t usual_range(const std::vector<std::uint64_t>& counts, std::size_t begin,
+                        std::size_t end) {
+  constexpr double rare = 0.001;
+  const std::vector<std::uint64_t> some(counts.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        counts.begin() + static_cast<std::ptrdiff_t>(end));
+  return quantile_of(some, 1.0 - rare) - quantile_of(some, rare);
+}
+
+/// Returns the peaks among the values [begin, end) that stand out.
+std::vector<GreyPeak> peaks_between(const std::vector<std::uint64_t>& counts, std::uint64_t all,
+                                    std::size_t begin, std::size_t end) {
+  const std::size_t width = std::max<std::size_t>(1, usual_range(counts, begin, end) / windows);
+  std::vector<double> heights(counts.begin() + static_cast<std::ptrdiff_t>(begin),
+                              counts.begin() + static_cast<std::ptrdiff_t>(end));
+  for (int pass = 0; pass < 2; ++pass) heights = window_sums(heights, width);
+  std::vector<GreyPeak> peaks;
+  bool is_rising = true;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const double next = k + 1 < heights.size() ? heights[k + 1] : -1.0;
+    if (is_rising && next < heights[k]) {
+      peaks.push_back({k, k, 0});
+      is_rising = false;
+    } else if (!is_rising && next > heights[k]) {
+      peaks.back().valley = k;
+      is_rising = true;
+    }
+  }
+  if (!peaks.empty()) peaks.back().valley = heights.size() - 1;
+  std::size_t next = 0;
+  for (GreyPeak& peak : peaks) {
+    for (; next <= peak.valley; ++next) peak.voxels += counts[begin + next];
+  }
+  drop_weak_peaks(heights, all, peaks);
+  for (GreyPeak& peak : peaks) {
+    peak.value += begin;
+    peak.valley += begin;
+  }
+  return peaks;
+}
+
+/// Appends the peaks among the values [begin, end). A peak that is narrow against their range is
+/// looked at again, in narrower windows: beside a very bright phase, void and grains share one.
+void append_peaks(const std::vector<std::uint64_t>& counts, std::uint64_t all, std::size_t begin,
+                  std::size_t end, std::vector<GreyPeak>& found) {
+  const std::size_t range = usual_range(counts, begin, end);
+  for (const GreyPeak& peak : peaks_between(counts, all, begin, end)) {
+    constexpr std::size_t narrow = 6;
+    // Void and grains together; a phase of its own has less, or keeps its shape.
+    constexpr double nearly_all = 0.9;
+    const std::size_t own = usual_range(counts, begin, peak.valley + 1);
+    if (own >= windows && own * narrow < range &&
+        static_cast<double>(peak.voxels) >= nearly_all * static_cast<double>(all)) {
+      append_peaks(counts, all, begin, peak.valley + 1, found);
+    } else {
+      found.push_back(peak);
+    }
+    begin = peak.valley + 1;
   }
 }
 
@@ -110,44 +174,16 @@ std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fractio
 
 std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts) {
   constexpr std::ptrdiff_t few = 8;
-  const auto is_some = [](std::uint64_t count) { return count > 0; };
-  const bool are_few = std::count_if(counts.begin(), counts.end(), is_some) <= few;
-  // Windows of a sixteenth of the range of all values but a thousandth at each end.
-  constexpr double rare = 0.001;
-  const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
-  const std::size_t width = std::max<std::size_t>(1, range / 16);
-  std::vector<double> heights(counts.begin(), counts.end());
-  std::vector<GreyPeak> peaks;
-  if (are_few) {
-    peaks = peaks_of_few(counts);
-  } else {
-    for (int pass = 0; pass < 2; ++pass) heights = window_sums(heights, width);
-    bool is_rising = true;
-    for (std::size_t k = 0; k < heights.size(); ++k) {
-      const double next = k + 1 < heights.size() ? heights[k + 1] : -1.0;
-      if (is_rising && next < heights[k]) {
-        peaks.push_back({k, k, 0});
-        is_rising = false;
-      } else if (!is_rising && next > heights[k]) {
-        peaks.back().valley = k;
-        is_rising = true;
-      }
-    }
-    if (!peaks.empty()) peaks.back().valley = counts.size() - 1;
-    std::size_t begin = 0;
-    for (GreyPeak& peak : peaks) {
-      for (; begin <= peak.valley; ++begin) peak.voxels += counts[begin];
-    }
-  }
   std::uint64_t all = 0;
   for (const std::uint64_t count : counts) all += count;
-  if (are_few) {
-    constexpr std::uint64_t fewest = 1000;
-    peaks.erase(std::remove_if(peaks.begin(), peaks.end(),
-                               [&](const GreyPeak& peak) { return peak.voxels * fewest < all; }),
-                peaks.end());
-  } else {
-    drop_weak_peaks(heights, all, peaks);
+  const auto is_some = [](std::uint64_t count) { return count > 0; };
+  std::vector<GreyPeak> peaks;
+  if (std::count_if(counts.begin(), counts.end(), is_some) > few) {
+    append_peaks(counts, all, 0, counts.size(), peaks);
+    return peaks;
+  }
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    if (counts[k] > 0 && counts[k] * fewest_of >= all) peaks.push_back({k, k, counts[k]});
   }
   return peaks;
 }
@@ -159,8 +195,7 @@ double level_below(const std::vector<std::uint64_t>& counts, const std::vector<G
   const std::size_t end = upper + 1 == peaks.size() ? counts.size() : peaks[upper].valley + 1;
   const double contrast =
       side_of(counts, middle, end).mean() - side_of(counts, begin, middle).mean();
-  // Wide against the noise of the counts, narrow against the distance of the peaks.
-  const auto width = static_cast<std::size_t>(std::max(1.0, std::round(contrast / 8.0)));
+  const std::size_t width = peak_width(contrast);
   return 0.5 * (peak_of(counts, begin, middle, width) + peak_of(counts, middle, end, width));
 }
 
@@ -186,12 +221,22 @@ double otsu_level(const std::vector<std::uint64_t>& counts) {
   return level;
 }
 
+double contrast_at(const std::vector<std::uint64_t>& counts, double level) {
+  const auto size = static_cast<double>(counts.size());
+  const auto parted = static_cast<std::size_t>(std::clamp(std::ceil(level), 0.0, size));
+  const Side below = side_of(counts, 0, parted);
+  const Side above = side_of(counts, parted, counts.size());
+  if (!(below.count > 0.0 && above.count > 0.0)) return 0.0;
+  const std::size_t width = peak_width(above.mean() - below.mean());
+  return 2.0 * std::min(level - peak_of(counts, 0, parted, width),
+                        peak_of(counts, parted, counts.size(), width) - level);
+}
+
 double level_between_peaks(const std::vector<std::uint64_t>& counts) {
   const auto parted = static_cast<std::size_t>(otsu_level(counts));
   const double contrast =
       side_of(counts, parted, counts.size()).mean() - side_of(counts, 0, parted).mean();
-  // Wide against the noise of the counts, narrow against the distance of the peaks.
-  const auto width = static_cast<std::size_t>(std::max(1.0, std::round(contrast / 8.0)));
+  const std::size_t width = peak_width(contrast);
   return 0.5 * (peak_of(counts, 0, parted, width) + peak_of(counts, parted, counts.size(), width));
 }
 

@@ -31,6 +31,10 @@ std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fractio
 double level_below(const std::vector<std::uint64_t>& counts, const std::vector<GreyPeak>& peaks,
                    std::size_t upper);
 
+/// Returns twice the distance of a level to the nearer one of the fullest values on its two sides;
+/// 0 if a side is empty.
+double contrast_at(const std::vector<std::uint64_t>& counts, double level);
+
 /// Returns Otsu's threshold: the grey value in the histogram for which the values below and from it
 /// on have the largest variance between their means.
 double otsu_level(const std::vector<std::uint64_t>& counts);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <set>
 #include <utility>
 
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/level_mask.h"
 #include "toolbox/volume/neck_join.h"
 #include "toolbox/volume/scanned_region.h"
 #include "toolbox/volume/volume_parts.h"
@@ -166,7 +168,8 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
   }
   // Most neighbours differ by noise only. Surfaces differ by a third of the contrast and more.
   const std::size_t noise = quantile_of(differences, 0.5);
-  constexpr double rare = 0.001;
+  // A few voxels of a very bright phase do not widen the range.
+  constexpr double rare = 0.05;
   const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
   const std::size_t alike = std::max<std::size_t>({1, 4 * noise, range / 16});
   std::vector<std::uint8_t> is_inside(grey.size(), 1);
@@ -195,7 +198,8 @@ double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std:
   }
   if (std::count_if(inside.begin(), inside.end(), is_some) >= 2) peaks = peaks_of(inside);
   const auto found = static_cast<int>(peaks.size());
-  if (found < 3 && !options.phases) return level_between_peaks(counts);
+  // Noise and small dense bodies lead Otsu's threshold astray, but not the peaks.
+  if (found < 2 && !options.phases) return level_between_peaks(counts);
   const int phases = options.phases.value_or(found - 1);
   if (phases >= found) {
     refuse("The grey values have " + std::to_string(found) + (found == 1 ? " peak" : " peaks") +
@@ -206,54 +210,125 @@ double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std:
                      static_cast<std::size_t>(options.dark ? phases : found - phases));
 }
 
-/// Returns the material among grey values; sets `threshold` to the computed one if it was not
-/// given, and the peaks of `result`.
-std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
-                                      const std::vector<std::uint8_t>& outside,
-                                      const SegmentationOptions& options, Segmentation& result,
-                                      const Execution& execution) {
+/// Whether a volume of few values is a mask of phases: in labels, each value has one part only.
+bool are_phases(const std::vector<std::uint16_t>& grey, const VolumeGeometry& geometry,
+                const SegmentationOptions& options, const Execution& execution) {
+  constexpr std::size_t most_phases = 8;
+  std::set<std::uint16_t> values;
+  for (const std::uint16_t value : grey) {
+    values.insert(value);
+    if (values.size() > most_phases) return false;
+  }
+  constexpr Label none = std::numeric_limits<Label>::max();
+  const std::unique_ptr<LabelVolume> parts =
+      parts_of(std::make_unique<HeldVolume>(geometry, std::vector<Label>(grey.begin(), grey.end())),
+               none, execution);
+  const std::vector<LabelExtent> all = label_census(*parts, 0, execution);
+  const auto is_large = [&](const LabelExtent& part) {
+    return static_cast<std::int64_t>(part.voxels) >= options.smallest;
+  };
+  const auto large = std::count_if(all.begin(), all.end(), is_large);
+  return large >= 2 * static_cast<std::ptrdiff_t>(values.size());
+}
+
+/// Grey values in 16 bits: base + step * grey.
+struct ShortGrey {
+  std::vector<std::uint16_t> grey;
+  double base = 0.0;
+  double step = 1.0;
+};
+
+ShortGrey short_grey(LabelVolume& scan, const GreyRange& range,
+                     const std::vector<std::uint8_t>& outside, const Execution& execution) {
   constexpr double most = std::numeric_limits<std::uint16_t>::max();
   // Whole numbers of 16 bits are used as they are. Other values are quantized; a few outliers must
   // not widen the steps.
   const bool is_short = range.are_whole && double{range.largest} - range.least <= most;
-  const double base = is_short ? range.least : range.lower;
-  const double step = is_short ? 1.0 : (range.upper - base) / most;
-  std::vector<std::uint16_t> grey;
+  ShortGrey result;
+  result.base = is_short ? range.least : range.lower;
+  result.step = is_short ? 1.0 : (range.upper - result.base) / most;
+  std::vector<std::uint16_t>& grey = result.grey;
   grey.reserve(voxels_of(scan.geometry().counts));
-  for_each_row(scan, execution.part(0.0, 0.2), [&](const std::vector<Label>& row) {
+  for_each_row(scan, execution, [&](const std::vector<Label>& row) {
     // What was not scanned gets the value before it, so that smoothing does not change its
     // neighbours.
     float value = range.least;
     for (const Label code : row) {
       const bool is_scanned = code != 0 && (outside.empty() || outside[grey.size()] == 0);
       if (is_scanned) value = grey_value(code);
-      grey.push_back(
-          static_cast<std::uint16_t>(std::clamp(std::round((value - base) / step), 0.0, most)));
+      grey.push_back(static_cast<std::uint16_t>(
+          std::clamp(std::round((value - result.base) / result.step), 0.0, most)));
     }
   });
-  grey = median_of(grey, scan.geometry().counts, execution.part(0.2, 1.0));
-  const auto is_outside = [&](std::size_t k) { return !outside.empty() && outside[k] != 0; };
+  return result;
+}
+
+struct GreyCounts {
+  std::vector<std::uint64_t> all;
+  std::vector<std::uint64_t> inside;  ///< of phases
+};
+
+GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
+                     const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes) {
+  GreyCounts counts;
+  counts.all.assign(std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (outside.empty() || outside[k] == 0) ++counts.all[grey[k]];
+  }
+  counts.inside = counts_inside(grey, outside, sizes, counts.all);
+  return counts;
+}
+
+/// Smooths on if the grey values have one peak, because of noise, until they have two. If they
+/// never do, they stay as they are.
+void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
+                        const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes,
+                        Segmentation& result, const Execution& execution) {
+  constexpr int most_medians = 3;
+  std::vector<std::uint16_t> smoother;
+  GreyCounts found = counts;
+  for (int medians = 1; medians <= most_medians; ++medians) {
+    if (peaks_of(found.inside).size() > 1) {
+      if (medians == 1) return;
+      grey = std::move(smoother);
+      counts = std::move(found);
+      result.medians = medians;
+      return;
+    }
+    if (medians == most_medians) return;
+    smoother = median_of(medians == 1 ? grey : smoother, sizes, execution);
+    found = counts_of(smoother, outside, sizes);
+  }
+}
+
+/// Returns the material among grey values; sets `threshold` to the computed one if it was not
+/// given, and the peaks of `result`.
+std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
+                                      const std::vector<std::uint8_t>& outside,
+                                      const SegmentationOptions& options, Segmentation& result,
+                                      const Execution& execution) {
+  const VoxelCounts& sizes = scan.geometry().counts;
+  auto [grey, base, step] = short_grey(scan, range, outside, execution.part(0.0, 0.2));
+  grey = median_of(grey, sizes, execution.part(0.2, 0.7));
+  GreyCounts counts = counts_of(grey, outside, sizes);
   result.threshold = options.threshold.value_or(0.0);
   if (!options.threshold) {
-    std::vector<std::uint64_t> counts(static_cast<std::size_t>(most) + 1, 0);
-    for (std::size_t k = 0; k < grey.size(); ++k) {
-      if (!is_outside(k)) ++counts[grey[k]];
+    if (!options.phases) {
+      smooth_until_peaks(grey, counts, outside, sizes, result, execution.part(0.7, 0.9));
     }
     std::vector<GreyPeak> peaks;
-    result.threshold =
-        base + step * level_of(counts, counts_inside(grey, outside, scan.geometry().counts, counts),
-                               options, peaks);
+    result.threshold = base + step * level_of(counts.all, counts.inside, options, peaks);
     for (const GreyPeak& peak : peaks) {
       result.peaks.push_back(base + step * static_cast<double>(peak.value));
     }
   }
-  const double level = (result.threshold - base) / step;
-  std::vector<std::uint8_t> mask(grey.size());
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    const bool is_material = options.dark ? grey[k] <= level : grey[k] >= level;
-    mask[k] = is_material && !is_outside(k) ? 1 : 0;
+  if (result.is_flat) {
+    result.is_flat = !are_phases(grey, scan.geometry(), options, execution.part(0.9, 0.95));
   }
-  return mask;
+  const double level = (result.threshold - base) / step;
+  return level_mask(grey, outside, sizes,
+                    {level, contrast_at(counts.all, level), options.dark, result.medians},
+                    execution.part(0.95, 1.0));
 }
 
 /// Returns whether each label of a volume is within two voxels of one that was not scanned.
@@ -325,9 +400,9 @@ void drop_small(Segmentation& result, std::int64_t smallest, const std::vector<c
   }
   if (result.grains.empty() && result.cut == 0) {
     refuse("No grain is left: all " + std::to_string(all.size()) + " parts of material from " +
-           format_number(result.threshold) + " on have fewer than " + std::to_string(smallest) +
-           " voxels. Give another " + mention("threshold") + ", or a lower " + mention("smallest") +
-           ".");
+           format_number(result.threshold) + (result.is_dark ? " down" : " on") +
+           " have fewer than " + std::to_string(smallest) + " voxels. Give another " +
+           mention("threshold") + ", or a lower " + mention("smallest") + ".");
   }
   for (std::size_t part = 1; part < numbers.size(); ++part) {
     if (numbers[part] == 0) numbers[part] = static_cast<Label>(result.grains.size() + 1);

@@ -69,6 +69,7 @@ struct Segmentation {
   bool is_dark = false;             ///< as in the options
   double threshold = 0.0;           ///< as used
   std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
+  int medians = 1;                  ///< so often the grey values were smoothed; more for noise
   std::uint64_t not_scanned = 0;    ///< voxels outside of what was scanned, see not_scanned
   std::size_t cut = 0;              ///< grains that touch them; not among `grains`
   std::uint64_t voxels = 0;         ///< of the volume
@@ -81,7 +82,8 @@ struct Segmentation {
 /// as the dropped ones are, because a file of labels cannot tell them from whole ones.
 ///
 /// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
-/// the median of each voxel and its 26 neighbours, the threshold, holes in the material filled,
+/// the median of each voxel and its 26 neighbours, again if noise leaves one peak, the threshold
+/// with a correction of the blur (see level_mask.h), holes in the material filled,
 /// touching parts separated. A volume of two values is a mask; the larger value is the material, or
 /// the smaller one if it is dark.
 /// Throws Error: InvalidInput for options out of range, without ITK, for a volume of one value, and

@@ -188,7 +188,8 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   if (peaks == 1) {
     doubts.push_back("The grey values have one peak, at " +
                      format_number(segmentation.peaks[0], 4) +
-                     ": grains and the space between them do not differ much. Give " +
+                     ": grains and the space between them do not differ much, or by less than the "
+                     "noise. Give " +
                      mention("threshold") + " if the outlines are wrong.");
   } else if (peaks > 2) {
     std::string values;
@@ -205,6 +206,13 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      (segmentation.is_dark ? "" : " on") + ". If the grains are only the " +
                      (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
                      mention("phases", "1") + ".");
+  }
+  if (segmentation.medians > 1) {
+    doubts.push_back("The noise is strong: the grey values were smoothed " +
+                     std::to_string(segmentation.medians) +
+                     " times before two peaks stood out. Grains of a few voxels may be lost, and "
+                     "outlines are rough. If they are wrong, give " +
+                     mention("threshold") + ".");
   }
   if (segmentation.cut > 0) {
     doubts.push_back(std::to_string(segmentation.cut) +
