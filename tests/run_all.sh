@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [web] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen and OpenMesh.
@@ -95,6 +95,11 @@ for step in "$@"; do
       # After release. A step of its own, because a browser is 300 MB.
       tests/install_packages.sh chromium poppler-utils
       tests/page_in_browser.sh build/release/lib/wscvt build/page ;;
+    web)
+      # After release. A step of its own, because emscripten and a browser are 1 GB.
+      tests/install_packages.sh emscripten chromium chromium-driver firefox-esr python3-selenium python3-numpy
+      lib/web/build.sh build/wscvt-page
+      /usr/bin/python3 tests/web_in_browser.py build/release/lib/wscvt build/wscvt-page meshes build/web-pictures ;;
     static)
       # After release; as root, for debootstrap. A step of its own, because ITK's source is 280 MB.
       tests/install_packages.sh debootstrap

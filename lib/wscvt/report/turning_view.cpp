@@ -115,7 +115,8 @@ std::string view_json(const TurningMesh& shown, std::size_t place, const Vector3
       const double share = std::clamp(distance / shown.limit, -1.0, 1.0);
       steps.push_back(static_cast<std::int8_t>(std::lround(127.0 * share)));
     }
-    json += ",\"parts\":" + std::to_string(parts) + ",\"distances\":" + text_of(steps);
+    json += ",\"parts\":" + std::to_string(parts) + ",\"limit\":" + format_number(shown.limit) +
+            ",\"distances\":" + text_of(steps);
   }
   return json + "}";
 }

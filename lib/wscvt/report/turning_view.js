@@ -44,27 +44,38 @@ function sidesOf(corners) {
   return new Uint32Array(ends);
 }
 
-const {turn, views} = JSON.parse(document.getElementById("views").textContent);
-const shared = {turn, zoom: 1, views: []};
-for (const {place, points, faces, parts, distances, edges} of views) {
-  const holder = document.querySelector(`[data-view="${place}"]`);
-  const picture = holder.querySelector("img");
-  const canvas = document.createElement("canvas");
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", picture.alt + " It turns with the arrow keys.");
-  holder.prepend(canvas);
-  const view = new View(canvas, shared, 1);
-  if (!view.gl) {
-    canvas.remove();
-    break;
+/// Shows meshes, as turning_view.cpp writes them, each in the element whose data-view is its place. An element may
+/// hold a picture, which is hidden, and is used again for the next meshes.
+function turnPictures({turn, views}) {
+  const shared = {turn, zoom: 1, views: []};
+  for (const {place, points, faces, parts, distances, edges} of views) {
+    const holder = document.querySelector(`[data-view="${place}"]`);
+    if (!holder.view) {
+      const canvas = document.createElement("canvas");
+      const picture = holder.querySelector("img");
+      canvas.setAttribute("role", "img");
+      canvas.setAttribute("aria-label", (picture ? picture.alt : holder.title) + " It turns with the arrow keys.");
+      holder.prepend(canvas);
+      holder.view = new View(canvas, shared, 1);
+      if (!holder.view.gl) {
+        canvas.remove();
+        delete holder.view;
+        return false;
+      }
+      holder.classList.add("turns");
+    }
+    holder.view.shared = shared;
+    shared.views.push(holder.view);
+    const mesh = {positions: Float32Array.from(numbersOf(points, Int16Array), x => x / 32767),
+                  corners: numbersOf(faces, Uint32Array)};
+    if (distances) {
+      holder.view.show({...divided(mesh, parts), limit: 127,
+                        distances: Float32Array.from(numbersOf(distances, Int8Array))});
+    } else {
+      holder.view.show({...mesh, edges: edges ? sidesOf(mesh.corners) : null});
+    }
   }
-  holder.classList.add("turns");
-  const mesh = {positions: Float32Array.from(numbersOf(points, Int16Array), x => x / 32767),
-                corners: numbersOf(faces, Uint32Array)};
-  if (distances) {
-    view.show({...divided(mesh, parts), limit: 127,
-               distances: Float32Array.from(numbersOf(distances, Int8Array))});
-  } else {
-    view.show({...mesh, edges: edges ? sidesOf(mesh.corners) : null});
-  }
+  return true;
 }
+
+if (document.getElementById("views")) turnPictures(JSON.parse(document.getElementById("views").textContent));

@@ -72,7 +72,6 @@ class View {
     this.gl = canvas.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true});
     if (!this.gl) return;
     this.program = compile(this.gl);
-    shared.views.push(this);
     this.listen();
     new ResizeObserver(() => this.draw()).observe(canvas);
   }
@@ -80,10 +79,16 @@ class View {
   /// A mesh: {positions, corners, distances, limit, edges}; the last three may be missing.
   show(mesh) {
     const gl = this.gl;
+    if (this.mesh) {
+      gl.deleteVertexArray(this.mesh.array);
+      for (const buffer of this.mesh.buffers) gl.deleteBuffer(buffer);
+    }
+    const buffers = [];
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
     const fill = (kind, values) => {
       const buffer = gl.createBuffer();
+      buffers.push(buffer);
       gl.bindBuffer(kind, buffer);
       gl.bufferData(kind, values, gl.STATIC_DRAW);
       return buffer;
@@ -96,7 +101,7 @@ class View {
       gl.enableVertexAttribArray(at);
       gl.vertexAttribPointer(at, width, gl.FLOAT, false, 0, 0);
     }
-    this.mesh = {array, faces: fill(gl.ELEMENT_ARRAY_BUFFER, mesh.corners), corners: mesh.corners.length,
+    this.mesh = {array, buffers, faces: fill(gl.ELEMENT_ARRAY_BUFFER, mesh.corners), corners: mesh.corners.length,
                  edges: mesh.edges ? fill(gl.ELEMENT_ARRAY_BUFFER, mesh.edges) : null,
                  ends: mesh.edges ? mesh.edges.length : 0, limit: mesh.limit || 0};
     this.draw();
