@@ -372,6 +372,35 @@ TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
   EXPECT_NE(refused.errors.find("ball of roundness"), std::string::npos) << refused.errors;
 }
 
+TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
+  const double diameter =
+      describe_shape_in_detail(read_mesh(path("scan.ply")), DetailedOptions(), Execution())
+          .equivalent_diameter;
+  const std::string size = std::to_string(diameter / 25.0);
+  const Json plain = report_of("describe scan.ply");
+  const Json report = report_of("describe scan.ply --voxel-size " + size +
+                                " --report table.csv --report page.html");
+  EXPECT_FALSE(plain.contains("resolution"));
+  EXPECT_EQ(report["descriptors"], plain["descriptors"]);
+  const Json& resolution = report["resolution"];
+  EXPECT_NEAR(resolution["voxels_across"].get<double>(), 25.0, 1e-3);
+  const Json& area = resolution["area"];
+  EXPECT_LT(area["low"].get<double>(), area["corrected"].get<double>());
+  EXPECT_LT(area["corrected"].get<double>(), area["high"].get<double>());
+  EXPECT_NE(area["corrected"], report["descriptors"]["area"]);
+  EXPECT_TRUE(resolution["sq"]["corrected"].is_null());
+  EXPECT_EQ(run("describe scan.ply -q --voxel-size " + size + " --report table.csv").exit_code, 0);
+  const auto records = test::csv_records(content("table.csv"));
+  ASSERT_EQ(records.size(), 3U);  // a second row fits below the first
+  EXPECT_EQ(records[1], records[2]);
+  EXPECT_EQ(run("describe scan.ply -q --report table.csv").exit_code, 2);  // other columns
+  EXPECT_NE(content("page.html").find("<th>corrected</th>"), std::string::npos);
+  const Outcome loud = run("describe scan.ply --voxel-size " + size);
+  EXPECT_NE(loud.output.find("25.0 voxels across"), std::string::npos) << loud.output;
+  EXPECT_NE(loud.output.find("not resolved"), std::string::npos) << loud.output;
+  EXPECT_EQ(run("describe scan.ply --voxel-size 0").exit_code, 2);
+}
+
 TEST_F(Commands, CompareMeasuresAgainstTheReference) {
   ASSERT_EQ(run("scan.ply remesh.ply -q -n 60").exit_code, 0);
   const Json report = report_of("compare remesh.ply scan.ply --report table.csv");

@@ -148,8 +148,6 @@ TEST(Resolution, IntervalsCoverAndCorrectedValuesAreCloser) {
   for (const std::string& key : keys) {
     SCOPED_TRACE(key);
     EXPECT_GE(covered[key], 0.9 * resolved[key]) << resolved[key];
-    std::printf("%s: %d of %d covered, error %.2f of %.2f\n", key.c_str(), covered[key],
-                resolved[key], left[key], raw[key]);
   }
   EXPECT_LT(left["area"], 0.7 * raw["area"]);
   EXPECT_LT(left["sphericity_wadell"], 0.7 * raw["sphericity_wadell"]);

@@ -11,6 +11,7 @@
 #include "toolbox/resolution/descriptor_orders.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/repair/mesh_check.h"
 
@@ -65,7 +66,7 @@ void correct(ResolvedValue& row, double across) {
   if (!std::isfinite(row.value + row.coarse)) return;
   const double change = row.value - row.coarse;
   const double corrected =
-      (1.0 + order->floor) * row.value + change / (std::exp2(order->order) - 1.0);
+      (1.0 + order->floor) * row.value + change / (portable::pow(2.0, order->order) - 1.0);
   const double below = order->share * std::abs(change) + order->scatters * row.scatter +
                        order->rest * std::abs(row.value) / across;
   const double most = most_of(row.key);

@@ -9,11 +9,11 @@ namespace wscvt {
 
 /// Makes one closed outer surface of a scan by these repairs. The report counts each repair:
 /// - faces without a finite position are dropped, equal points are welded (see weld.h), degenerate,
-///   doubled and back-to-back faces are dropped (see degenerate_faces.h);
+///   doubled and back-to-back faces are dropped (see repair_steps.h);
 /// - the part with the largest volume is kept; parts are connected through edges. Other parts
 ///   inside it are pores or inclusions, parts outside are other bodies;
 /// - if more than two faces meet in an edge, flaps and internal walls are dropped and sheets
-///   separated (see manifold_edges.h); the largest separated part is kept;
+///   separated (see repair_steps.h); the largest separated part is kept;
 /// - faces are turned outward and holes are filled (see holes.h);
 /// - if fans of faces touch only in one vertex, each fan gets its own vertex.
 /// A clean scan does not change. Voxel steps are reported and stay.
