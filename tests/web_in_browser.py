@@ -178,7 +178,6 @@ def check_cancel(driver, address, meshes, folder):
     wait(driver, "!document.getElementById('error').hidden", 60, "an error")
     print("The page says: " + at(driver, "error").text)
 
-
 def write_large(path):
     """A bumpy ellipsoid of a million vertices, as binary PLY."""
     rows, columns = 707, 1414
@@ -246,8 +245,13 @@ def use(browser, address, program, meshes, folder):
         if browser == "chromium":
             check_large(driver, address, program, folder)
             check_requests(driver, address)
-        else:
+        elif driver.execute_script("return document.createElement('canvas').getContext('webgl2') !== null"):
             check_turning(driver)
+        else:
+            # Without a screen Firefox has no graphics on many machines.
+            if "no WebGL 2" not in at(driver, "error").text:
+                sys.exit("The page does not say that there is no picture.")
+            print("This Firefox has no WebGL 2, and the page says so.")
     finally:
         driver.quit()
 

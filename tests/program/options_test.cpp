@@ -76,10 +76,10 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {"help",      "help-all",    "threads",     "coefficients",
-                                  "overwrite", "quiet",       "report",      "node-table",
-                                  "sdf",       "frame",       "verbose",     "size",
-                                  "scale",     "sdf-surface", "sdf-spacing", "output"};
+  std::set<std::string> tested = {
+      "help",   "help-all",    "threads",     "coefficients", "overwrite",  "quiet",
+      "report", "node-table",  "sdf",         "frame",        "verbose",    "size",
+      "scale",  "sdf-surface", "sdf-spacing", "output",       "tetrahedra", "tetrahedra-edge"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -94,8 +94,8 @@ TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
     }
   }
   EXPECT_EQ(in_help, tested);
-  // A stranger reads all of them: 35 at most.
-  EXPECT_LE(in_help.size(), 35U);
+  // A stranger reads all of them: 37 at most.
+  EXPECT_LE(in_help.size(), 37U);
 }
 
 TEST_F(ProgramOptions, ReachTheRemeshUnderTheirNames) {
@@ -240,6 +240,23 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   ASSERT_EQ(run("remesh scan.ply large.ply -q -n 60 -d 6 --scale 1000").exit_code, 0);
   const Vector3 plain = read_mesh(path("plain.ply")).points[7];
   EXPECT_LT((read_mesh(path("large.ply")).points[7] - 1000.0 * plain).norm(), 1e-9);
+}
+
+TEST_F(ProgramOptions, TetrahedraAreWrittenInEachFormAndLeaveTheRemeshAsItIs) {
+  ASSERT_EQ(run("remesh scan.ply plain.ply -q -n 60 -d 6").exit_code, 0);
+  const Outcome filled =
+      run("remesh scan.ply filled.ply -n 60 -d 6 --tetrahedra body.vtu --tetrahedra body.msh "
+          "--tetrahedra body.inp --tetrahedra-edge 0.5");
+  ASSERT_EQ(filled.exit_code, 0) << filled.errors;
+  EXPECT_NE(filled.output.find("etrahedra"), std::string::npos) << filled.output;
+  EXPECT_EQ(content("filled.ply"), content("plain.ply"));
+  EXPECT_NE(content("body.inp").find("C3D4"), std::string::npos);
+  EXPECT_NE(content("body.vtu").find("UnstructuredGrid"), std::string::npos);
+  EXPECT_NE(content("body.msh").find("$Elements"), std::string::npos);
+  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra body.stl").exit_code, 2);
+  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --tetrahedra-edge -1").exit_code,
+            2);
+  EXPECT_FALSE(exists("bad.ply"));
 }
 
 TEST_F(ProgramOptions, AGridThatIsTooLargeIsRefusedBeforeTheRemesh) {

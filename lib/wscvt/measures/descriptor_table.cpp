@@ -206,7 +206,8 @@ std::string resolution_sentence(const Resolution& resolution) {
     if (!list.empty()) list += ", ";
     list += name;
     if (!row->is_resolved()) continue;
-    list += " " + format_error(relative_error_percent(row->value, row->corrected)) + " %";
+    const std::string error = format_error(relative_error_percent(row->value, row->corrected));
+    list += " " + error + (error == "exact" ? "" : " %");
   }
   std::string sentence = "The grain is " + format_number(resolution.voxels_across, 3) +
                          " voxels across. Errors by the voxels, about: " +
