@@ -75,7 +75,7 @@ void run(const std::string& scan, const std::map<std::string, std::string>& valu
   write_mesh(result.mesh, "/remesh.ply");
   write_mesh(result.mesh, "/remesh.stl");
   write_file("/nodes.csv", nodes_csv(node_table(result.mesh)));
-  const ReportOrigin origin{scan.substr(1), ""};
+  const ReportOrigin origin{scan, ""};
   write_file("/report.json", report_json(result, origin));
   // Its views are the page's too.
   write_file("/report.html", report_html(result, origin, execution.part(0.85, 1.0)));

@@ -17,9 +17,9 @@ onmessage = async ({data}) => {
       },
       onError: text => { failure = text; },
     });
-    program.FS.writeFile("/" + data.name, new Uint8Array(data.scan));
+    program.FS.writeFile(data.name, new Uint8Array(data.scan));
     const words = Object.entries(data.options).map(([name, value]) => name + "=" + value);
-    const code = program.callMain(["/" + data.name, ...words]);
+    const code = program.callMain([data.name, ...words]);
     if (code !== 0) {
       postMessage({error: failure});
       return;
