@@ -48,7 +48,7 @@ bool ScanInputs::is_sample() const {
 }
 
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
-                          std::string& format) {
+                     std::string& format) {
   app.add_option("scans", arguments.inputs,
                  mesh_argument_text("Scan", MeshUse::Read) +
                      "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE "

@@ -23,7 +23,7 @@ struct ScanInputs {
 /// Adds the inputs, --format and --shard. `files` are what is made of each grain, and `format`
 /// their ending. Parsing changes `arguments` and `format`, which must outlive `app`.
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
-                          std::string& format);
+                     std::string& format);
 
 /// Throws wscvt::Error(InvalidInput) if the outputs are not one folder, or a report is asked for.
 /// `is_file` tells whether an output is the name of a file.

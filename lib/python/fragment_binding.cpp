@@ -78,14 +78,15 @@ py::tuple fragment(const Points& vertices, const py::object& faces, int fragment
 
 void bind_fragment(py::module_& module) {
   const FragmentOptions usual;
-  module.def("fragment", &fragment, py::arg("vertices"), py::arg("faces"),
-             py::arg("fragments") = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
-             py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
-             py::arg("threads") = 0, py::arg("progress") = py::none(),
-             "Divides a grain into exactly `fragments` closed fragments that fill it and have "
-             "common walls. Returns a list with a pair (vertices, faces) for each, and a dictionary "
-             "with their measures and contacts. volumes: relative, one per fragment. near: points "
-             "(n, 3) near which fragments are smaller. Raises Error.");
+  module.def(
+      "fragment", &fragment, py::arg("vertices"), py::arg("faces"),
+      py::arg("fragments") = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
+      py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
+      py::arg("threads") = 0, py::arg("progress") = py::none(),
+      "Divides a grain into exactly `fragments` closed fragments that fill it and have "
+      "common walls. Returns a list with a pair (vertices, faces) for each, and a dictionary "
+      "with their measures and contacts. volumes: relative, one per fragment. near: points "
+      "(n, 3) near which fragments are smaller. Raises Error.");
 }
 
 }  // namespace wscvt::python

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/remesh/target_search.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "support/expect_error.h"
-#include "wscvt/remesh/target_search.h"
 
 namespace wscvt {
 namespace {

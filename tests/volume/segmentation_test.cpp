@@ -267,8 +267,7 @@ TEST_F(SegmentationOfAFile, TakesFractionsNegativeValuesAndWhatIsNoNumber) {
     hounsfield.push_back(
         static_cast<std::int16_t>((made_.labels[k] != 0 ? 1500 : -1000) + 300 * noise));
   }
-  for (std::size_t k = 0; k < 30 * 28; ++k)
-    fractions[k] = std::numeric_limits<float>::quiet_NaN();
+  for (std::size_t k = 0; k < 30 * 28; ++k) fractions[k] = std::numeric_limits<float>::quiet_NaN();
   fractions[5000] = 9e20F;
   fractions[5555] = -1e25F;
   const std::string header =
