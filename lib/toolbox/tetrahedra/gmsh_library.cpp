@@ -52,8 +52,9 @@ class Library {
     }
   }
 
+  /// The address of a declared function would make the linker ask for the library.
   template <class Function>
-  Function* of(Function* /*declared*/, const char* name) const {
+  Function* of(const char* name) const {
     void* const found = dlsym(handle_.get(), name);
     if (found == nullptr) refuse(std::string(library_name) + " has no function " + name + ".");
     return reinterpret_cast<Function*>(found);
@@ -72,7 +73,7 @@ class Library {
   std::unique_ptr<void, Close> handle_;
 };
 
-#define WSCVT_GMSH(library, name) (library).of(&(name), #name)
+#define WSCVT_GMSH(library, name) (library).of<decltype(name)>(#name)
 
 /// One use of Gmsh, from its initialization to its end.
 class Session {
