@@ -650,6 +650,12 @@ def test_a_repr_says_what_it_is(scan):
     assert "of ''" not in repr(wscvt.remesh(*scan, nodes=60))
 
 
+def test_the_stub_exports_what_the_module_does():
+    stub = pathlib.Path(wscvt.__file__).with_name("__init__.pyi").read_text()
+    listed = re.search(r"__all__ = (\[.*?\])", stub, re.S).group(1)
+    assert sorted(ast.literal_eval(listed)) == sorted(wscvt.__all__)
+
+
 def test_each_function_says_its_arguments():
     for name in wscvt.__all__:
         text = getattr(wscvt, name).__doc__
