@@ -67,11 +67,14 @@ TEST(TurningView, HasTheMeshTheDistancesAndTheViewOfThePictures) {
     }
   }
   ASSERT_EQ(data["views"].size(), 2U);
+  ASSERT_EQ(data["meshes"].size(), 1U);
   for (std::size_t which = 0; which < 2; ++which) {
     const nlohmann::json& one = data["views"][which];
     EXPECT_EQ(one["place"], which);
-    const auto points = numbers<std::int16_t>(one["points"]);
-    const auto faces = numbers<std::uint32_t>(one["faces"]);
+    EXPECT_EQ(one["mesh"], 0);  // written once
+    const nlohmann::json& shape = data["meshes"].at(0);
+    const auto points = numbers<std::int16_t>(shape["points"]);
+    const auto faces = numbers<std::uint32_t>(shape["faces"]);
     ASSERT_EQ(points.size(), 3 * mesh.points.size());
     ASSERT_EQ(faces.size(), 3 * mesh.triangles.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v) {
@@ -117,9 +120,10 @@ TEST(TurningView, DrawsALargeMeshCoarserAndKeepsThePageSmall) {
   ASSERT_GT(mesh.points.size(), 160000U);
   const MeshView view = view_of({&mesh}, 100);
   const std::string html = turning_views({{mesh, true, {}, 0.0}}, view);
-  const nlohmann::json one = data_of(html)["views"][0];
-  const auto points = numbers<std::int16_t>(one["points"]);
-  const auto faces = numbers<std::uint32_t>(one["faces"]);
+  const nlohmann::json data = data_of(html);
+  const nlohmann::json& one = data["views"][0];
+  const auto points = numbers<std::int16_t>(data["meshes"][0]["points"]);
+  const auto faces = numbers<std::uint32_t>(data["meshes"][0]["faces"]);
   EXPECT_GT(points.size() / 3, 30000U);
   EXPECT_LT(points.size() / 3, 90000U);
   EXPECT_FALSE(one.contains("edges"));

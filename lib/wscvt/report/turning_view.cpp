@@ -90,24 +90,25 @@ std::string text_of(const std::vector<Whole>& values) {
 }
 
 /// `radius`: the length that becomes 1 in the page.
-std::string view_json(const TurningMesh& shown, std::size_t place, const Vector3& centre,
-                      double radius) {
-  const bool is_large = shown.mesh.points.size() > most_points;
-  const IndexedMesh fewer = is_large ? coarse(shown.mesh) : IndexedMesh();
-  const IndexedMesh& mesh = is_large ? fewer : shown.mesh;
+std::string mesh_json(const IndexedMesh& mesh, const Vector3& centre, double radius) {
   std::vector<std::int16_t> positions;
   for (const Vector3& p : mesh.points) {
     const Vector3 scaled = 32767.0 / radius * (p - centre);
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
       positions.push_back(static_cast<std::int16_t>(std::lround(scaled[k])));
+    }
   }
   std::vector<std::uint32_t> corners;
   for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) corners.push_back(static_cast<std::uint32_t>(v));
   }
-  std::string json = "{\"place\":" + std::to_string(place) + ",\"points\":" + text_of(positions) +
-                     ",\"faces\":" + text_of(corners);
-  if (shown.with_edges && !is_large) json += ",\"edges\":true";
+  return "{\"points\":" + text_of(positions) + ",\"faces\":" + text_of(corners) + "}";
+}
+
+/// `mesh`: that of `shown`, or a coarser one.
+std::string view_json(const TurningMesh& shown, const IndexedMesh& mesh) {
+  std::string json;
+  if (shown.with_edges && &mesh == &shown.mesh) json += ",\"edges\":true";
   if (shown.distances) {
     const int parts = parts_of(mesh.triangles.size());
     std::vector<std::int8_t> steps;
@@ -118,7 +119,7 @@ std::string view_json(const TurningMesh& shown, std::size_t place, const Vector3
     json += ",\"parts\":" + std::to_string(parts) + ",\"limit\":" + format_number(shown.limit) +
             ",\"distances\":" + text_of(steps);
   }
-  return json + "}";
+  return json;
 }
 
 }  // namespace
@@ -139,10 +140,27 @@ std::string turning_views(const std::vector<TurningMesh>& meshes, const MeshView
   for (const TurningMesh& shown : meshes) {
     for (const Vector3& p : shown.mesh.points) radius = std::max(radius, (p - view.centre).norm());
   }
-  json += "],\"views\":[";
+  json += "],\"meshes\":[";
+  // A mesh with two views is in the page once.
+  std::string views;
+  std::vector<const IndexedMesh*> written;
+  std::vector<IndexedMesh> coarser(meshes.size());
   for (std::size_t k = 0; k < meshes.size(); ++k) {
-    json += (k > 0 ? "," : "") + view_json(meshes[k], k, view.centre, radius);
+    const IndexedMesh* const own = &meshes[k].mesh;
+    const auto found = std::find(written.begin(), written.end(), own);
+    const auto number = static_cast<std::size_t>(found - written.begin());
+    const bool is_large = own->points.size() > most_points;
+    if (found == written.end()) {
+      written.push_back(own);
+      if (is_large) coarser[number] = coarse(*own);
+      json += (number > 0 ? "," : "") +
+              mesh_json(is_large ? coarser[number] : *own, view.centre, radius);
+    }
+    views += (k > 0 ? ",{\"place\":" : "{\"place\":") + std::to_string(k) +
+             ",\"mesh\":" + std::to_string(number) +
+             view_json(meshes[k], is_large ? coarser[number] : *own) + "}";
   }
+  json += "],\"views\":[" + views;
   return "<script type=\"application/json\" id=\"views\">" + json + "]}</script>\n<script>\n" +
          view_script + turning_view_script + "</script>\n";
 }

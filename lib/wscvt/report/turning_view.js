@@ -32,8 +32,8 @@ function divided({positions, corners}, parts) {
   return {positions: new Float32Array(points), corners: new Uint32Array(faces)};
 }
 
-/// Each side of a face once or twice; a line drawn twice is the same line.
-function sidesOf(corners) {
+/// The ends of each edge, once: the two faces of an edge of a closed mesh go along it in opposite directions.
+function edgesOf(corners) {
   const ends = [];
   for (let f = 0; f < corners.length; f += 3) {
     const [a, b, c] = corners.slice(f, f + 3);
@@ -46,9 +46,13 @@ function sidesOf(corners) {
 
 /// Shows meshes, as turning_view.cpp writes them, each in the element whose data-view is its place. An element may
 /// hold a picture, which is hidden, and is used again for the next meshes.
-function turnPictures({turn, views}) {
+function turnPictures({turn, meshes, views}) {
+  const shapes = meshes.map(({points, faces}) => ({
+    positions: Float32Array.from(numbersOf(points, Int16Array), x => x / 32767),
+    corners: numbersOf(faces, Uint32Array),
+  }));
   const shared = {turn, zoom: 1, views: []};
-  for (const {place, points, faces, parts, distances, edges} of views) {
+  for (const {place, mesh, parts, distances, edges} of views) {
     const holder = document.querySelector(`[data-view="${place}"]`);
     if (!holder.view) {
       const canvas = document.createElement("canvas");
@@ -66,13 +70,12 @@ function turnPictures({turn, views}) {
     }
     holder.view.shared = shared;
     shared.views.push(holder.view);
-    const mesh = {positions: Float32Array.from(numbersOf(points, Int16Array), x => x / 32767),
-                  corners: numbersOf(faces, Uint32Array)};
+    const shape = shapes[mesh];
     if (distances) {
-      holder.view.show({...divided(mesh, parts), limit: 127,
+      holder.view.show({...divided(shape, parts), limit: 127,
                         distances: Float32Array.from(numbersOf(distances, Int8Array))});
     } else {
-      holder.view.show({...mesh, edges: edges ? sidesOf(mesh.corners) : null});
+      holder.view.show({...shape, edges: edges ? edgesOf(shape.corners) : null});
     }
   }
   return true;
