@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <set>
 #include <utility>
 
 #include "toolbox/volume/grey_threshold.h"
@@ -211,14 +210,13 @@ double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std:
 }
 
 /// Whether a volume of few values is a mask of phases: in labels, each value has one part only.
-bool are_phases(const std::vector<std::uint16_t>& grey, const VolumeGeometry& geometry,
-                const SegmentationOptions& options, const Execution& execution) {
-  constexpr std::size_t most_phases = 8;
-  std::set<std::uint16_t> values;
-  for (const std::uint16_t value : grey) {
-    values.insert(value);
-    if (values.size() > most_phases) return false;
-  }
+bool are_phases(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
+                const VolumeGeometry& geometry, const SegmentationOptions& options,
+                const Execution& execution) {
+  constexpr std::ptrdiff_t most_phases = 8;
+  const std::ptrdiff_t values =
+      std::count_if(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 0; });
+  if (values > most_phases) return false;
   constexpr Label none = std::numeric_limits<Label>::max();
   const std::unique_ptr<LabelVolume> parts =
       parts_of(std::make_unique<HeldVolume>(geometry, std::vector<Label>(grey.begin(), grey.end())),
@@ -228,7 +226,7 @@ bool are_phases(const std::vector<std::uint16_t>& grey, const VolumeGeometry& ge
     return static_cast<std::int64_t>(part.voxels) >= options.smallest;
   };
   const auto large = std::count_if(all.begin(), all.end(), is_large);
-  return large >= 2 * static_cast<std::ptrdiff_t>(values.size());
+  return large >= 2 * values;
 }
 
 /// Grey values in 16 bits: base + step * grey.
@@ -323,7 +321,8 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     }
   }
   if (result.is_flat) {
-    result.is_flat = !are_phases(grey, scan.geometry(), options, execution.part(0.9, 0.95));
+    result.is_flat =
+        !are_phases(grey, counts.all, scan.geometry(), options, execution.part(0.9, 0.95));
   }
   const double level = (result.threshold - base) / step;
   return level_mask(grey, outside, sizes,
