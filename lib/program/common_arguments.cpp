@@ -43,9 +43,10 @@ void check_mesh_input(const std::string& path) {
            "VOLUME LABELS.nrrd first.");
   }
   if (is_folder) {
-    refuse("\"" + path +
-           "\" is a folder. wscvt batch FOLDER -o OUT remeshes all meshes in it; other commands "
-           "take one file.");
+    refuse(
+        "\"" + path +
+        "\" is a folder. wscvt batch FOLDER -o OUT remeshes all meshes in it; this command takes "
+        "one file.");
   }
   check_mesh_format(path, MeshUse::Read);
 }

@@ -90,8 +90,9 @@ struct Fabric {
 Fabric measure_fabric(LabelVolume& labels, const FabricOptions& options,
                       const Execution& execution);
 
-/// Returns sqrt(3/2) times the Frobenius norm of 15/2 (F - I/3) for a fabric tensor F with trace 1:
-/// 0 for directions that are spread evenly.
+/// Returns the degree of anisotropy of a fabric tensor F with trace 1: sqrt(3/2) times the
+/// Frobenius norm of its deviatoric form 15/2 (F - I/3) (Kanatani 1984, Int. J. Engng Sci. 22); no
+/// unit. 0 for directions that are spread evenly, 7.5 for directions that are all parallel.
 double anisotropy_of(const Eigen::Matrix3d& tensor);
 
 }  // namespace wscvt
