@@ -46,7 +46,7 @@ function options() {
 /// The contact laws by the deepest node want the mesh that is closest to the scan.
 function lawChanged() {
   const fits = at("placement").value.startsWith("contact-fit");
-  if (fits && at("ratio").value === "1.1") at("ratio").value = "1.4";
+  if (fits && at("ratio").value === at("ratio").defaultValue) at("ratio").value = "1.4";
 }
 
 function methodChanged() {
