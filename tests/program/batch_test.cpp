@@ -424,7 +424,7 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
     std::string part_of_the_sentence;
   };
   for (const BadInputs& call :
-       {BadInputs{"-o out2 scans " + scan(1), "would both be remeshed"},
+       {BadInputs{"-o out2 scans " + scan(1), "would both be written to \""},
         BadInputs{"-o out2 'scans/z*'", "No file matches"}, BadInputs{"-o out2 @no.txt", "no.txt"},
         BadInputs{"-o out2 out2", "out2"}, BadInputs{"scans -o scans", "replace the scan"}}) {
     SCOPED_TRACE(call.inputs);

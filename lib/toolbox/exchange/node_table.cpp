@@ -14,9 +14,7 @@ namespace {
 
 std::string lines_of(const std::vector<Vector3>& vectors) {
   std::string text;
-  for (const Vector3& v : vectors) {
-    text += format_exact(v.x()) + " " + format_exact(v.y()) + " " + format_exact(v.z()) + "\n";
-  }
+  for (const Vector3& v : vectors) text += vector_text(v) + "\n";
   return text;
 }
 

@@ -4,14 +4,11 @@
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_writers.h"
 
 namespace wscvt {
 
 namespace {
-
-std::string numbers(const Vector3& v) {
-  return format_exact(v.x()) + " " + format_exact(v.y()) + " " + format_exact(v.z());
-}
 
 void check_frame(const MassProperties& mass, double radius) {
   const Eigen::Matrix3d& tensor = mass.inertia_tensor;
@@ -37,7 +34,7 @@ std::string rockable_shape(const std::string& name, const NodeTable& nodes,
     const Vector3 corner = nodes.mesh.points[i] - radius * nodes.normals[i];
     lowest = lowest.cwiseMin(corner);
     highest = highest.cwiseMax(corner);
-    corners += numbers(corner) + "\n";
+    corners += vector_text(corner) + "\n";
   }
   std::size_t edge_count = 0;
   std::string edges;
@@ -59,9 +56,9 @@ std::string rockable_shape(const std::string& name, const NodeTable& nodes,
          std::to_string(nodes.mesh.points.size()) + "\n" + corners + "ne " +
          std::to_string(edge_count) + "\n" + edges + "nf " +
          std::to_string(nodes.mesh.triangles.size()) + "\n" + faces + "obb.extent " +
-         numbers(extent) + "\nobb.e1 1 0 0\nobb.e2 0 1 0\nobb.e3 0 0 1\nobb.center " +
-         numbers(0.5 * (lowest + highest)) + "\nposition 0 0 0\norientation 1 0 0 0\nvolume " +
-         format_exact(mass.volume) + "\nI/m " + numbers(moments) + "\n>\n";
+         vector_text(extent) + "\nobb.e1 1 0 0\nobb.e2 0 1 0\nobb.e3 0 0 1\nobb.center " +
+         vector_text(0.5 * (lowest + highest)) + "\nposition 0 0 0\norientation 1 0 0 0\nvolume " +
+         format_exact(mass.volume) + "\nI/m " + vector_text(moments) + "\n>\n";
 }
 
 }  // namespace wscvt

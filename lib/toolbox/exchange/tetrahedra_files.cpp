@@ -16,10 +16,6 @@ namespace wscvt {
 
 namespace {
 
-std::string place_text(const Vector3& p) {
-  return format_exact(p.x()) + " " + format_exact(p.y()) + " " + format_exact(p.z());
-}
-
 /// Returns corners, counted from `first`.
 template <class Corners>
 std::string corner_text(const Corners& corners, std::int32_t first, const std::string& between) {
@@ -36,7 +32,7 @@ std::string vtu_text(const TetrahedralMesh& mesh) {
   std::string corners;
   std::string ends;
   std::string types;
-  for (const Vector3& p : points) places += place_text(p) + "\n";
+  for (const Vector3& p : points) places += vector_text(p) + "\n";
   for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k) {
     corners += corner_text(mesh.tetrahedra[k], 0, " ") + "\n";
     ends += std::to_string(4 * (k + 1)) + "\n";
@@ -61,7 +57,7 @@ std::string gmsh_text(const TetrahedralMesh& mesh) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const std::string box = place_text(low) + " " + place_text(high);
+  const std::string box = vector_text(low) + " " + vector_text(high);
   const std::string nodes = std::to_string(points.size());
   const std::size_t triangles = mesh.surface.triangles.size();
   const std::string elements = std::to_string(triangles + mesh.tetrahedra.size());
@@ -72,7 +68,7 @@ std::string gmsh_text(const TetrahedralMesh& mesh) {
       box + " 1 1 0\n1 " + box + " 1 2 1 1\n$EndEntities\n$Nodes\n1 " + nodes + " 1 " + nodes +
       "\n3 1 0 " + nodes + "\n";
   for (std::size_t i = 1; i <= points.size(); ++i) text += std::to_string(i) + "\n";
-  for (const Vector3& p : points) text += place_text(p) + "\n";
+  for (const Vector3& p : points) text += vector_text(p) + "\n";
   text += "$EndNodes\n$Elements\n2 " + elements + " 1 " + elements + "\n2 1 2 " +
           std::to_string(triangles) + "\n";
   std::size_t number = 0;

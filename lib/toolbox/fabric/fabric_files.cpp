@@ -52,10 +52,6 @@ std::string point_array(const Fabric& fabric, const std::string& type,
   return vtk_data_array(type, attributes, numbers);
 }
 
-std::string vector_text(const Vector3& v) {
-  return format_exact(v.x()) + " " + format_exact(v.y()) + " " + format_exact(v.z());
-}
-
 }  // namespace
 
 std::string contacts_csv(const Fabric& fabric) {

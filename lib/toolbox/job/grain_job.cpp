@@ -38,7 +38,7 @@ void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
   for (const std::string& grain : grains) {
     const auto [other, is_new] = made.emplace(folder.file_of(grain), &grain);
     if (!is_new) {
-      refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be remeshed to \"" +
+      refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be written to \"" +
              other->first + "\". Use two batches, or rename one of them.");
     }
     bool replaces_scan = same_file(other->first, grain);
@@ -46,7 +46,7 @@ void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
       replaces_scan = replaces_scan || same_file(folder.file_of(grain, files), grain);
     }
     if (replaces_scan) {
-      refuse("The remesh of \"" + grain + "\" would replace the scan. Give another folder with " +
+      refuse("The files of \"" + grain + "\" would replace the scan. Give another folder with " +
              mention("output") + ", or another " + mention("format") + ".");
     }
   }

@@ -208,7 +208,7 @@ void require_gmsh() { const Library library; }
 
 GmshVolume gmsh_volume(std::vector<double> coordinates, std::vector<std::size_t> corners,
                        double edge) {
-  static std::mutex one_at_a_time;
+  static std::mutex one_at_a_time;  // Gmsh has one state for the whole program
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const Library library;
   Session session(library);

@@ -10,11 +10,11 @@
 
 namespace wscvt {
 
-namespace {
-
-std::string text_of(const Vector3& p) {
-  return format_exact(p.x()) + " " + format_exact(p.y()) + " " + format_exact(p.z());
+std::string vector_text(const Vector3& v) {
+  return format_exact(v.x()) + " " + format_exact(v.y()) + " " + format_exact(v.z());
 }
+
+namespace {
 
 /// Returns the corners' indices, counted from `first`.
 std::string text_of(const Triangle& t, std::int64_t first, const char* between) {
@@ -24,7 +24,7 @@ std::string text_of(const Triangle& t, std::int64_t first, const char* between) 
 
 std::string lines_of(const std::vector<Vector3>& points) {
   std::string text;
-  for (const Vector3& p : points) text += text_of(p) + "\n";
+  for (const Vector3& p : points) text += vector_text(p) + "\n";
   return text;
 }
 
@@ -84,8 +84,8 @@ void write_stl_text(std::ostream& stream, const IndexedMesh& mesh) {
     const Vector3 across = doubled_area_normal(a, b, c);
     const double length = across.norm();
     const Vector3 normal = length > 0.0 ? Vector3(across / length) : Vector3::Zero();
-    stream << "facet normal " << text_of(normal) << "\nouter loop\n";
-    for (const Vector3* p : {&a, &b, &c}) stream << "vertex " << text_of(*p) << "\n";
+    stream << "facet normal " << vector_text(normal) << "\nouter loop\n";
+    for (const Vector3* p : {&a, &b, &c}) stream << "vertex " << vector_text(*p) << "\n";
     stream << "endloop\nendfacet\n";
   }
   stream << "endsolid grain\n";
@@ -134,8 +134,8 @@ void write_gmsh(std::ostream& stream, const IndexedMesh& mesh) {
   const std::string nodes = std::to_string(mesh.points.size());
   const std::string faces = std::to_string(mesh.triangles.size());
   // One surface, number 1: its box, no physical groups and no curves.
-  stream << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 " << text_of(low) << " "
-         << text_of(high) << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes
+  stream << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 " << vector_text(low)
+         << " " << vector_text(high) << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes
          << "\n2 1 0 " << nodes << "\n";
   for (std::size_t i = 1; i <= mesh.points.size(); ++i) stream << i << "\n";
   stream << lines_of(mesh.points) << "$EndNodes\n$Elements\n1 " << faces << " 1 " << faces

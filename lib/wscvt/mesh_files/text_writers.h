@@ -11,6 +11,9 @@ namespace wscvt {
 // Writes meshes as text for other programs. Coordinates have the digits that read back to the same
 // double, unless stated otherwise.
 
+/// Returns "x y z", with the digits that read back to the same doubles.
+std::string vector_text(const Vector3& v);
+
 /// Writes STL as text: one solid, with the triangles' normals.
 void write_stl_text(std::ostream& stream, const IndexedMesh& mesh);
 
