@@ -137,6 +137,25 @@ TEST(GrainRun, IsStoppedWhileAGrainWaitsToBeAlone) {
   EXPECT_EQ(end.done, 0U);
 }
 
+TEST(GrainRun, IsStoppedBeforeTheFirstGrain) {
+  std::atomic<int> begun{0};
+  JobHost host{4};
+  std::vector<std::size_t> done;
+  host.progress = [&](const JobProgress& now) {
+    done.push_back(now.done);
+    return false;
+  };
+  const JobEnd end = run_grains(run_of(2, 9,
+                                       [&](std::size_t grain) {
+                                         ++begun;
+                                         return std::to_string(grain);
+                                       }),
+                                host);
+  EXPECT_TRUE(end.was_cancelled());
+  EXPECT_EQ(begun, 0);
+  EXPECT_EQ(done, std::vector<std::size_t>{2});
+}
+
 TEST(GrainRun, AnExceptionEndsIt) {
   std::atomic<int> begun{0};
   const std::string message = message_of(run_of(0, 100000,

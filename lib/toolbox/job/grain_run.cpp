@@ -40,7 +40,7 @@ class GrainQueue {
   using Work = std::function<GrainRow(std::size_t grain)>;
   /// Takes the row of the next grain. Called on one thread at a time.
   using Take = std::function<void(const GrainRow& row)>;
-  /// Called from time to time during the work; false stops it.
+  /// Called before the work and from time to time during it; false stops it.
   using Watch = std::function<bool()>;
 
   GrainQueue(std::size_t first, std::size_t count, Work work, Take take);
@@ -177,6 +177,7 @@ void GrainQueue::start(int threads, std::vector<std::thread>& workers) {
 void GrainQueue::run(int threads, const Watch& watch) {
   constexpr std::size_t grains_ahead = 32;  // per thread: some grains take a hundred times as long
   most_ahead_ = grains_ahead * static_cast<std::size_t>(threads);
+  if (!watch()) return;
   std::vector<std::thread> workers;
   start(threads, workers);
   if (workers.empty()) {

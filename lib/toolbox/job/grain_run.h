@@ -28,8 +28,8 @@ struct JobProgress {
 /// What a run needs from its caller. Each function may be empty.
 struct JobHost {
   int threads = 0;  ///< one grain per thread; 0: all of the machine
-  /// Called about five times per second on the caller's thread, or after each grain if no thread
-  /// starts. False stops the run.
+  /// Called on the caller's thread before the first grain, then about five times per second, or
+  /// after each grain if no thread starts. False stops the run.
   std::function<bool(const JobProgress& progress)> progress = {};
   /// Whether to stop. Called often, on several threads at once.
   std::function<bool()> is_cancelled = {};
