@@ -17,8 +17,10 @@
 #include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
+#include "support/test_shapes.h"
 #include "toolbox/report/sample_table.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -78,7 +80,7 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   EXPECT_EQ(summary.with_warnings, 1U);
   ASSERT_EQ(summary.failures.size(), 1U);
   EXPECT_EQ(summary.failures[0].grain, "bad");
-  EXPECT_EQ(summary.failures[0].error, "Broken.");
+  EXPECT_EQ(summary.failures[0].message, "Broken.");
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   const auto& radius = json.at("distributions").at("equivalent_radius");
   EXPECT_EQ(radius.at("count"), 5);
@@ -95,7 +97,8 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
             "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
   EXPECT_EQ(summary_lines(summary)[1], "Warnings: warned");
   EXPECT_EQ(json.at("grains_with_warnings"), nlohmann::ordered_json::array({"warned"}));
-  EXPECT_NE(summary_html(summary).find("Warnings: warned."), std::string::npos);
+  EXPECT_EQ(test::table_named(summary_html(summary), "grain", 1),
+            (test::Rows{{"grain", "warnings"}, {"warned", "Odd."}}));
   for (const std::string& line : summary_lines(summary)) EXPECT_LE(line.size(), 80U) << line;
 }
 
@@ -187,6 +190,69 @@ TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
   EXPECT_EQ(summary.failed, most_failures_named + 7);
   EXPECT_EQ(summary.failures.size(), most_failures_named);
   EXPECT_NE(summary_html(summary).find("And 7 more"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, ThePageHasTheOptionsOfAllGrains) {
+  RemeshResult first = grain_of(1.0);
+  first.options.node_count = 321;
+  std::get<OnScanOptions>(first.options.method).edge_ratio = 1.25;
+  RemeshResult second = first;
+  second.options.node_count = 322;
+  write(sample_header(false) + failed_row("bad", "Broken.", {}) + sample_row("a", first, {}) +
+        sample_row("b", first, {}));
+  std::string page = summary_html(summarise_table(path_));
+  EXPECT_NE(page.find(", nodes 321,"), std::string::npos);
+  EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
+  write(sample_header(false) + sample_row("a", first, {}) + sample_row("b", second, {}));
+  page = summary_html(summarise_table(path_));
+  EXPECT_NE(page.find(", nodes several,"), std::string::npos);
+  EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
+  std::string table = sample_header(false);
+  for (int k = 0; k < 150; ++k) {
+    RemeshResult result = grain_of(1.0);
+    result.rms_distance = 0.001 * ((k * 37) % 150 + 1);
+    table += sample_row("folder/grain" + std::to_string(k) + ".ply", result, {});
+  }
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  ASSERT_EQ(summary.farthest.size(), most_grains_shown);
+  for (std::size_t k = 0; k < most_grains_shown; ++k) {
+    EXPECT_NEAR(summary.farthest[k].percent, 0.1 * (150.0 - static_cast<double>(k)), 1e-12);
+  }
+  const std::string mesh = path_ + ".ply";
+  write_mesh(test::tetrahedron(2.0), mesh);
+  // One of the grains has no file.
+  const std::string page = summary_html(summary, [&](const std::string& grain) {
+    return grain == summary.farthest[1].grain ? path_ + ".none" : mesh;
+  });
+  std::remove(mesh.c_str());
+  EXPECT_NE(page.find("The 99 of 150 remeshes that are farthest"), std::string::npos);
+  const auto name = [&](std::size_t k) {
+    return summary.farthest[k].grain.substr(7, summary.farthest[k].grain.size() - 11) + "<br>";
+  };
+  const std::size_t first = page.find(name(0) + "15 %");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(page.find(name(1)), std::string::npos);
+  EXPECT_LT(first, page.find(name(2)));
+  EXPECT_EQ(summary_html(summary).find("farthest"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
+  std::string table = sample_header(false);
+  double radius = 0.0;
+  for (const double volume : {3.0, 3.0 + 1e-15, 3.0 - 2e-15}) {
+    RemeshResult result = grain_of(radius += 1.0);
+    result.scan.volume = 3.0;
+    result.remesh.volume = volume;
+    table += sample_row("grain", result, {});
+  }
+  write(table);
+  const std::string page = summary_html(summarise_table(path_));
+  EXPECT_EQ(page.find("Error of the volume"), std::string::npos);
+  EXPECT_NE(page.find("Equivalent radius of 3 grains"), std::string::npos);
 }
 
 TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {

@@ -259,7 +259,8 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
   for (const JobFolder& folder : folders_of(job)) {
     const SampleSummary summary = summarise_table(folder.table());
     for (const char* ending : {".json", ".html"}) {
-      write_summary(folder.file("summary", ending), summary);
+      write_summary(folder.file("summary", ending), summary,
+                    [&](const std::string& grain) { return folder.file_of(grain); });
     }
     for (const std::string& line : summary_lines(summary)) lines.push_back(line);
   }

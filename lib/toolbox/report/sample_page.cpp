@@ -27,16 +27,12 @@ namespace {
 /// Keeps the page below 6 MB: 50 descriptors of 10,000 grains are 4 MB with four digits.
 constexpr std::size_t most_grains = 10000;
 constexpr std::size_t most_thumbnails = 100;
-/// Drawn at twice the size, then halved.
-constexpr int thumbnail_pixels = 144;
+constexpr int thumbnail_pixels = 72;
 
 constexpr const char* page_style =
-    "<style>select, input { font: inherit; } input { width: 5em; } .thumbs { display: grid; "
-    "grid-template-columns: repeat(auto-fill, minmax(5em, 1fr)); gap: 0.3em; max-height: 34em; "
-    "overflow-y: auto; } .thumbs figcaption { text-align: center; } figcaption button { "
+    "<style>select, input { font: inherit; } input { width: 5em; } figcaption button { "
     "margin-left: 0.5em; font-size: 0.9em; } @media print { button, select, input { display: none; "
-    "} .thumbs { max-height: none; } .thumbs.thumbs { grid-template-columns: repeat(10, 1fr); } "
-    "}</style>\n";
+    "} }</style>\n";
 
 /// Returns at most `most` rows, evenly spaced in the order of size. They keep the shape of the
 /// distribution.
@@ -93,18 +89,12 @@ std::string in_page(const Json& json) {
 
 /// Returns a picture as a data URL; empty if the mesh cannot be read.
 std::string thumbnail(const std::string& file, const Execution& execution) {
-  IndexedMesh mesh;
   try {
-    mesh = read_mesh(file, execution);
+    return data_url(thumbnail_of(read_mesh(file, execution), thumbnail_pixels));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
     return "";
   }
-  const MeshView view = view_of({&mesh}, thumbnail_pixels);
-  const std::string element =
-      image_element(halved(draw(mesh, look_at(mesh, view), view, false, {})), "");
-  const std::size_t begin = element.find("data:");
-  return element.substr(begin, element.find('"', begin) - begin);
 }
 
 std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>& rows,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -14,10 +15,13 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/readable_text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
+#include "wscvt/report/mesh_view.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -129,7 +133,7 @@ std::string warned_line(const SampleSummary& summary) {
   constexpr std::size_t longest = 80;
   std::string line;
   std::size_t named = 0;
-  for (const std::string& grain : summary.warned) {
+  for (const auto& [grain, warnings] : summary.warned) {
     const std::size_t left = summary.with_warnings - named - 1;
     const std::string rest = left == 0 ? "" : " and " + std::to_string(left) + " more";
     const std::string longer = (named == 0 ? "Warnings: " : line + ", ") + grain;
@@ -139,6 +143,93 @@ std::string warned_line(const SampleSummary& summary) {
   }
   if (named == summary.with_warnings) return line;
   return line + " and " + std::to_string(summary.with_warnings - named) + " more";
+}
+
+constexpr const char* option_prefix = "options.";
+constexpr const char* several = "several";
+
+/// Reads the options of a row into those of the rows before.
+void read_options(const std::vector<std::string>& fields,
+                  const std::vector<std::pair<std::string, std::size_t>>& places,
+                  SampleSummary& summary) {
+  const bool is_first = summary.options.empty();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::string& value = fields[places[k].second];
+    if (is_first) {
+      summary.options.emplace_back(places[k].first, value);
+    } else if (summary.options[k].second != value) {
+      summary.options[k].second = several;
+    }
+  }
+}
+
+bool is_farther(const GrainDistance& a, const GrainDistance& b) { return a.percent > b.percent; }
+
+/// Keeps the farthest grains. Of equal ones it keeps the first.
+void keep_farthest(SampleSummary& summary, GrainDistance one) {
+  std::vector<GrainDistance>& all = summary.farthest;
+  if (all.size() == most_grains_shown && !is_farther(one, all.back())) return;
+  all.insert(std::upper_bound(all.begin(), all.end(), one, is_farther), std::move(one));
+  if (all.size() > most_grains_shown) all.pop_back();
+}
+
+void add_messages(HtmlDocument& page, const std::string& heading, const char* column,
+                  const std::vector<GrainMessage>& messages, std::size_t count) {
+  if (count == 0) return;
+  page.add_heading(heading);
+  std::vector<std::vector<std::string>> rows = {{"grain", column}};
+  for (const auto& [grain, message] : messages) rows.push_back({grain, message});
+  page.add_rows(rows, RowKind::Typed);
+  if (count > messages.size()) {
+    page.add_paragraph("And " + std::to_string(count - messages.size()) + " more. See the table.");
+  }
+}
+
+std::string options_line(const SampleSummary& summary) {
+  std::string line;
+  for (const auto& [name, value] : summary.options) {
+    if (value.empty()) continue;
+    line += (line.empty() ? "Options: " : ", ") + name + " " + value;
+  }
+  return line + ".";
+}
+
+/// Returns an HTML figure, or nothing if the mesh cannot be read.
+std::string picture_of(const GrainDistance& one, const FileOfGrain& file_of) {
+  constexpr int pixels = 72;
+  try {
+    const std::string name = std::filesystem::path(one.grain).stem().string();
+    return "<figure>" + image_element(thumbnail_of(read_mesh(file_of(one.grain)), pixels), name) +
+           "<figcaption>" + html_escaped(name) + "<br>" + format_number(one.percent, 3) +
+           " %</figcaption></figure>\n";
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+void add_pictures(HtmlDocument& page, const SampleSummary& summary, const FileOfGrain& file_of) {
+  if (!file_of) return;
+  std::string pictures;
+  std::size_t count = 0;
+  for (const GrainDistance& one : summary.farthest) {
+    const std::string picture = picture_of(one, file_of);
+    if (!picture.empty()) ++count;
+    pictures += picture;
+  }
+  if (count == 0) return;
+  page.add_heading("Remeshes");
+  const std::size_t made = summary.grains - summary.failed;
+  page.add_paragraph((count < made
+                          ? "The " + std::to_string(count) + " of " + std::to_string(made) +
+                                " remeshes that are farthest from their scans"
+                          : "All remeshes, the farthest from its scan first") +
+                     ", with the rms distance in % of the equivalent radius.");
+  page.add_html("<div class=\"thumbs\">\n" + pictures + "</div>\n");
+}
+
+/// Whether the values differ by more than rounding.
+bool is_spread(const SampleDistribution& one) {
+  return shown(one, first_of(one.values), 4) != shown(one, last_of(one.values), 4);
 }
 
 }  // namespace
@@ -171,6 +262,12 @@ SampleSummary summarise_table(const std::string& path) {
     if (source.divisor != nullptr) places.back().second = header.place(source.divisor);
     summary.distributions.push_back({source.key, source.label, source.unit, {}});
   }
+  std::vector<std::pair<std::string, std::size_t>> options;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (fields[k].rfind(option_prefix, 0) != 0) continue;
+    options.emplace_back(fields[k].substr(std::string_view(option_prefix).size()), k);
+  }
+  const std::size_t distance = header.place("rms_distance.percent_of_equivalent_radius");
   while (reader.next(fields)) {
     if (fields.size() != header.size()) {
       refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +
@@ -187,8 +284,13 @@ SampleSummary summarise_table(const std::string& path) {
     }
     if (!fields[warnings].empty()) {
       ++summary.with_warnings;
-      if (summary.warned.size() < most_failures_named) summary.warned.push_back(fields[grain]);
+      if (summary.warned.size() < most_failures_named) {
+        summary.warned.push_back({fields[grain], fields[warnings]});
+      }
     }
+    read_options(fields, options, summary);
+    const double percent = number_of(fields[distance]);
+    if (std::isfinite(percent)) keep_farthest(summary, {fields[grain], percent});
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto& [column, divisor] = places[k];
       const double value =
@@ -241,29 +343,34 @@ std::string summary_json(const SampleSummary& summary) {
                               {"maximum", last_of(one.values)}};
   }
   Json failures = Json::array();
-  for (const SampleFailure& one : summary.failures) {
-    failures.push_back({{"grain", one.grain}, {"error", one.error}});
+  for (const auto& [grain, error] : summary.failures) {
+    failures.push_back({{"grain", grain}, {"error", error}});
   }
+  Json warned = Json::array();
+  for (const GrainMessage& one : summary.warned) warned.push_back(one.grain);
   return json_document({{"format", "wscvt-sample"},
                         {"version", 1},
                         {"made_by", made_by()},
                         {"grains", summary.grains},
                         {"remeshed", summary.grains - summary.failed},
                         {"with_warnings", summary.with_warnings},
-                        {"grains_with_warnings", summary.warned},
+                        {"grains_with_warnings", warned},
                         {"failed", summary.failed},
                         {"distributions", distributions},
                         {"failures", failures}});
 }
 
-std::string summary_html(const SampleSummary& summary) {
+std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of) {
   HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
   page.add_paragraph(origin_sentence({}));
   page.add_paragraph(count_line(summary) + ".");
-  if (summary.with_warnings > 0) page.add_paragraph(warned_line(summary) + ".");
+  if (!summary.options.empty()) page.add_paragraph(options_line(summary));
+  add_messages(page, "Failures", "error", summary.failures, summary.failed);
+  add_messages(page, "Warnings", "warnings", summary.warned, summary.with_warnings);
+  add_pictures(page, summary, file_of);
   std::vector<Figure> figures;
   for (const SampleDistribution& one : summary.distributions) {
-    if (one.values.empty()) continue;
+    if (one.values.empty() || !is_spread(one)) continue;
     figures.push_back(
         {histogram_figure(with_unit(one), "grains", {{"sample", colour, histogram_of(one.values)}}),
          capitalised(one.label) + " of " + std::to_string(one.values.size()) +
@@ -272,16 +379,6 @@ std::string summary_html(const SampleSummary& summary) {
   page.add_heading("Distributions");
   page.add_rows(table_of(summary));
   page.add_figures(figures);
-  if (!summary.failures.empty()) {
-    page.add_heading("Failures");
-    std::vector<std::vector<std::string>> rows = {{"grain", "error"}};
-    for (const SampleFailure& one : summary.failures) rows.push_back({one.grain, one.error});
-    page.add_rows(rows, RowKind::Typed);
-    if (summary.failed > summary.failures.size()) {
-      page.add_paragraph("And " + std::to_string(summary.failed - summary.failures.size()) +
-                         " more. See the table.");
-    }
-  }
   return page.text();
 }
 
@@ -302,8 +399,9 @@ std::vector<std::string> summary_lines(const SampleSummary& summary) {
   return lines;
 }
 
-void write_summary(const std::string& path, const SampleSummary& summary) {
-  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary)
+void write_summary(const std::string& path, const SampleSummary& summary,
+                   const FileOfGrain& file_of) {
+  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary, file_of)
                                                              : summary_json(summary));
 }
 

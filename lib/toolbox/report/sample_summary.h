@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wscvt/measures/mesh_quality.h"
@@ -17,10 +19,16 @@ struct SampleDistribution {
   std::vector<double> values;  ///< ascending
 };
 
-/// A grain that could not be remeshed.
-struct SampleFailure {
+/// What the table says of a grain: why it failed, or its warnings.
+struct GrainMessage {
   std::string grain;
-  std::string error;
+  std::string message;
+};
+
+/// A remesh and its distance to its scan.
+struct GrainDistance {
+  std::string grain;
+  double percent;  ///< rms distance in % of the equivalent radius
 };
 
 /// Statistics of a sample's table (see sample_table.h).
@@ -29,9 +37,14 @@ struct SampleSummary {
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
   /// The first grains with warnings only, to limit the memory.
-  std::vector<std::string> warned;
+  std::vector<GrainMessage> warned;
   /// The first failures only, to limit the memory.
-  std::vector<SampleFailure> failures;
+  std::vector<GrainMessage> failures;
+  /// Options of the remeshes by the name that users type, with their values as text. "several" if
+  /// the grains have different values.
+  std::vector<std::pair<std::string, std::string>> options;
+  /// The grains whose remeshes are farthest from their scans, farthest first.
+  std::vector<GrainDistance> farthest;
   /// Size, form, sphericity, errors and quality.
   std::vector<SampleDistribution> distributions;
 };
@@ -42,6 +55,9 @@ inline constexpr std::size_t most_failures_named = 100;
 /// Whether a file begins like a table with a row per grain that is not of remeshes, but for example
 /// of shapes or clumps, and has no summary. False if it cannot be read.
 bool is_without_summary(const std::string& path);
+
+/// Max. number of remeshes that a summary shows.
+inline constexpr std::size_t most_grains_shown = 100;
 
 /// Reads a whole table. Needs memory for 12 numbers per grain. Throws Error(InvalidInput) if the
 /// file is not such a table or ends within a row, Error(InputOutput).
@@ -54,15 +70,21 @@ Histogram histogram_of(const std::vector<double>& values);
 /// and 90 % of each distribution, failures.
 std::string summary_json(const SampleSummary& summary);
 
-/// Returns an HTML report with a histogram of each distribution.
-std::string summary_html(const SampleSummary& summary);
+/// Returns the file of a grain's remesh. An empty function: the page has no pictures of grains.
+using FileOfGrain = std::function<std::string(const std::string& grain)>;
+
+/// Returns an HTML report: failures and warnings by name, options, pictures of the remeshes that
+/// are farthest from their scans, a histogram of each distribution. A file that cannot be read has
+/// no picture.
+std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of = {});
 
 /// Returns lines for a log.
 std::vector<std::string> summary_lines(const SampleSummary& summary);
 
 /// Writes the summary as HTML or JSON, by the ending of the name. Throws Error(InvalidInput) for
 /// another ending, Error(InputOutput).
-void write_summary(const std::string& path, const SampleSummary& summary);
+void write_summary(const std::string& path, const SampleSummary& summary,
+                   const FileOfGrain& file_of = {});
 
 /// Checks before the work that write_summary will accept the name.
 void check_summary(const std::string& path);

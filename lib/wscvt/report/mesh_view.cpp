@@ -149,4 +149,10 @@ Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view
   return picture;
 }
 
+Picture thumbnail_of(const IndexedMesh& mesh, int pixels) {
+  // Drawn at twice the size, to smooth the edges.
+  const MeshView view = view_of({&mesh}, 2 * pixels);
+  return halved(draw(mesh, look_at(mesh, view), view, false, {}));
+}
+
 }  // namespace wscvt

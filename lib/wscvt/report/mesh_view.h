@@ -40,4 +40,7 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view);
 Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view, bool with_edges,
              const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of);
 
+/// Returns a small grey picture of a mesh. `pixels`: width and height, > 0.
+Picture thumbnail_of(const IndexedMesh& mesh, int pixels);
+
 }  // namespace wscvt

@@ -87,10 +87,14 @@ std::string png_of(const Picture& picture) {
   return file;
 }
 
+std::string data_url(const Picture& picture) {
+  return "data:image/png;base64," + base64(png_of(picture));
+}
+
 std::string image_element(const Picture& picture, const std::string& description) {
   return "<img width=\"" + std::to_string(picture.width) + "\" height=\"" +
-         std::to_string(picture.height) + "\" alt=\"" + html_escaped(description) +
-         "\" src=\"data:image/png;base64," + base64(png_of(picture)) + "\">";
+         std::to_string(picture.height) + "\" alt=\"" + html_escaped(description) + "\" src=\"" +
+         data_url(picture) + "\">";
 }
 
 Colour diverging_colour(double value) {

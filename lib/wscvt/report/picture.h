@@ -26,6 +26,9 @@ Picture halved(const Picture& picture);
 /// Returns a PNG file. Throws Error(NumericalFailure) if the compression fails.
 std::string png_of(const Picture& picture);
 
+/// Returns a PNG file as a data URL, for data within a document.
+std::string data_url(const Picture& picture);
+
 /// Returns an HTML img element that contains the picture.
 std::string image_element(const Picture& picture, const std::string& description);
 
