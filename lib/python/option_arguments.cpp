@@ -117,6 +117,37 @@ class OptionsToDict {
   py::dict options_;
 };
 
+/// A line of help for each option: name, subject, range or values, default, meaning.
+class OptionsToHelp {
+ public:
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    add(option.key, option.subject, range_text(option), typed_text(value), option.meaning);
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    add(option.key, option.subject, "True or False", value ? "True" : "False", option.meaning);
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& value) {
+    std::string values;
+    for (const auto& row : enumerators<Enumeration>()) {
+      values += (values.empty() ? "\"" : ", \"") + std::string(row.key) + "\"";
+      if (!row.meaning.empty()) values += " (" + std::string(row.meaning) + ")";
+    }
+    using Table = EnumerationTable<Enumeration>;
+    add(Table::key, Table::subject, values, "\"" + key_of(value) + "\"", "");
+  }
+  py::dict lines_;
+
+ private:
+  void add(std::string_view key, std::string_view subject, const std::string& values,
+           const std::string& usual, std::string_view meaning) {
+    std::string line = capitalised(subject) + ": " + values + ". Default: " + usual + ".";
+    if (!meaning.empty()) line += " " + capitalised(meaning) + ".";
+    lines_[keyword_of(key).c_str()] = line;
+  }
+};
+
 /// The names of each option's values, by the option.
 class ChoicesToDict {
  public:
@@ -161,6 +192,15 @@ void bind_options(py::module_& module) {
       py::arg("method") = key_of(Method::OnScan),
       "Returns all options of remesh and create for a method, with their defaults. The names are "
       "the command-line names, with _ for -.");
+  module.def("_option_help", [] {
+    OptionsToHelp help;
+    const RemeshOptions options;
+    const AsPublishedOptions published;
+    // The values on the scan replace those of the published method.
+    for_each_method_option(published, help);
+    for_each_option(options, help);
+    return help.lines_;
+  });
   module.def("_choices", [] {
     ChoicesToDict dict;
     const RemeshOptions options;

@@ -2,6 +2,7 @@
 """The Python module: arrays in and out, options by name, reports, progress, errors."""
 import ast
 import gc
+import html
 import json
 import math
 import os
@@ -648,6 +649,52 @@ def test_a_repr_says_what_it_is(scan):
     assert text.startswith("<wscvt.Remesh of 60 nodes and 116 faces, of 'sand', rms distance ")
     assert text.endswith(" % of R, 1 warning>")
     assert "of ''" not in repr(wscvt.remesh(*scan, nodes=60))
+
+
+def test_help_has_every_option_with_its_default():
+    text = re.sub(r"\s+", " ", wscvt.remesh.__doc__.split("Options:")[1])
+    for name, default in {**wscvt.options("as-published"), **wscvt.options()}.items():
+        found = re.search(rf" {name}: (.*?) Default: (.*?)\. ", text)
+        assert found, name
+        shown = f'"{default}"' if isinstance(default, str) else str(default)
+        assert found.group(2) in (shown, re.sub(r"\.0$", "", shown)), name
+
+
+def test_a_notebook_shows_the_report(scan):
+    result = wscvt.remesh(*scan, nodes=60, source="a <b>")
+    frame = re.fullmatch(r'<iframe srcdoc="([^"]*)" title="([^"]*)" style="[^"]*"></iframe>',
+                         result._repr_html_())
+    page = html.unescape(frame.group(1))
+    assert page.startswith("<!DOCTYPE html>") and 'id="views"' in page and "a &lt;b&gt;" in page
+    assert html.unescape(frame.group(2)) == repr(result)
+    for other in (pickle.loads(pickle.dumps(result)), wscvt.remesh(*scan, nodes=60, keep_scan=False)):
+        assert html.unescape(other._repr_html_()) == f"<pre>{other}</pre>"
+
+
+def test_a_plot_has_the_triangles(scan):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    result = wscvt.remesh(*scan, nodes=60)
+    axes = result.plot()
+    drawn = axes.collections[0]
+    axes.figure.canvas.draw()
+    assert len(drawn.get_facecolor()) == len(result.faces)
+    low, high = result.vertices.min(axis=0), result.vertices.max(axis=0)
+    for limits, a, b in zip((axes.get_xlim(), axes.get_ylim(), axes.get_zlim()), low, high):
+        assert limits[0] <= a and limits[1] >= b
+    assert result.plot(axes) is axes and len(axes.collections) == 2
+
+
+def test_results_become_meshes_of_other_libraries(scan):
+    result = wscvt.remesh(*scan, nodes=60)
+    trimesh = pytest.importorskip("trimesh")
+    mesh = result.to_trimesh()
+    assert isinstance(mesh, trimesh.Trimesh) and mesh.is_watertight
+    np.testing.assert_array_equal(mesh.vertices, result.vertices)
+    np.testing.assert_array_equal(mesh.faces, result.faces)
+    pytest.importorskip("pyvista")
+    np.testing.assert_array_equal(result.to_pyvista().points, result.vertices)
+    np.testing.assert_array_equal(result.to_pyvista().regular_faces, result.faces)
 
 
 def test_the_stub_exports_what_the_module_does():

@@ -12,10 +12,13 @@ each function.
 """
 import collections
 import concurrent.futures
+import html
 import itertools
 import numbers
 import os
 import pathlib
+import tempfile
+import textwrap
 import threading
 
 import numpy
@@ -57,7 +60,7 @@ def remesh(vertices, faces=None, nodes=None, **options):
         the work is cancelled.
     source: name of the scan in the report; the file's name by default.
     keep_scan: keep the repaired scan for HTML reports and grids. On by default.
-    All other options have the names and values of options().
+    All other options have the names and values of options(). They are listed at the end.
 
     Raises Error (code "invalid-input", "not-star-shaped", "numerical-failure", "input-output" or
     "cancelled"): InputError, a ValueError, for unusable input; FileError, an OSError, for a file;
@@ -71,6 +74,16 @@ def remesh(vertices, faces=None, nodes=None, **options):
     if isinstance(vertices, (str, os.PathLike)):
         options.setdefault("source", os.path.basename(vertices))
     return _wscvt.remesh(*_arrays(vertices, faces), **options)
+
+
+def _with_options(text):
+    """Returns a text of help with a line for each option."""
+    lines = [textwrap.fill(f"{name}: {line}", 92, initial_indent="    ", subsequent_indent=" " * 8)
+             for name, line in _wscvt._option_help().items()]
+    return text.rstrip() + "\n\n    Options:\n\n" + "\n".join(lines) + "\n"
+
+
+remesh.__doc__ = _with_options(remesh.__doc__)
 
 
 def create(surface, **options):
@@ -540,3 +553,48 @@ def grow(grains, n, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progre
                          ("nearest_grain", "i8"), ("nearest_distance", "f8"), ("collage", "f8"),
                          ("redraws", "i4")])
     return [row[:2] for row in rows], table
+
+
+def _to_trimesh(self):
+    """Returns a trimesh.Trimesh with the same vertices and faces. Needs trimesh."""
+    import trimesh
+    return trimesh.Trimesh(self.vertices, self.faces, process=False)
+
+
+def _to_pyvista(self):
+    """Returns a pyvista.PolyData with the same vertices and faces. Needs PyVista."""
+    import pyvista
+    return pyvista.PolyData.from_regular_faces(self.vertices, self.faces)
+
+
+def _plot(self, axes=None):
+    """Draws the mesh with matplotlib and returns the axes. axes: 3D axes; None makes a figure."""
+    if axes is None:
+        import matplotlib.pyplot
+        axes = matplotlib.pyplot.figure().add_subplot(projection="3d")
+    vertices = self.vertices
+    axes.plot_trisurf(*vertices.T, triangles=self.faces, color="lightgrey", edgecolor="black",
+                      linewidth=0.2)
+    axes.set_box_aspect(numpy.ptp(vertices, axis=0))
+    return axes
+
+
+def _repr_html_(self):
+    """Returns the report as HTML, which notebooks show: pictures that turn, errors, warnings. A
+    result without its scan, or one that was pickled, shows its log."""
+    with tempfile.TemporaryDirectory() as folder:
+        page = os.path.join(folder, "report.html")
+        try:
+            self.write_report(page)
+        except InputError:
+            return f"<pre>{html.escape(str(self))}</pre>"
+        text = pathlib.Path(page).read_text(encoding="utf-8")
+    return (f'<iframe srcdoc="{html.escape(text)}" title="{html.escape(repr(self))}" '
+            'style="width: 100%; height: 40em; border: 0"></iframe>')
+
+
+for _method in (_to_trimesh, _to_pyvista, _plot):
+    _method.__name__ = _method.__name__[1:]
+    _method.__qualname__ = "Remesh." + _method.__name__
+    setattr(Remesh, _method.__name__, _method)
+Remesh._repr_html_ = _repr_html_
