@@ -11,6 +11,8 @@ function(wscvt_compile_rooms target)
     elseif(source MATCHES "/volume/(label_volume|(voxel|smoothed)_surface)")
       # Python needs only these files of the volumes, and not the libraries of the file formats.
       set(group label_surface)
+    elseif(source MATCHES "_windows[.]cpp$")
+      set(group windows)  # its header of the system defines words as macros
     elseif(source MATCHES "/job/label_source")
       set(group volume)  # also not needed by Python
     else()

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/job/grain_files.h"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -12,6 +10,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
+#include "wscvt/base/system_files.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
@@ -38,12 +37,9 @@ void add_folder(const std::string& folder, const IsVolume& is_volume,
 }
 
 void add_matches(const std::string& pattern, std::vector<std::string>& files) {
-  glob_t found{};
-  // glob sorts by bytes, because the program's locale is the classic one.
-  const int outcome = ::glob(pattern.c_str(), 0, nullptr, &found);
-  if (outcome == 0) files.insert(files.end(), found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  ::globfree(&found);
-  if (outcome != 0) refuse("No file matches \"" + pattern + "\". Check the pattern.");
+  const std::vector<std::string> found = system_files::matching_files(pattern);
+  if (found.empty()) refuse("No file matches \"" + pattern + "\". Check the pattern.");
+  files.insert(files.end(), found.begin(), found.end());
 }
 
 void add_input(const std::string& input, const IsVolume& is_volume,

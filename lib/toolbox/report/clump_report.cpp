@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -207,7 +208,7 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
                        const Execution& execution) {
   const PageFigures figures =
       page_figures(ShownMesh{clump.repaired_scan, "scan"}, {clump.surface, "clump"}, execution);
-  const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
+  const std::string name = std::filesystem::path(origin.source).filename().string();
   HtmlDocument page("Clump" + (name.empty() ? "" : " of " + name) + " with " +
                     counted_spheres(clump));
   page.add_paragraph(origin_sentence(origin));

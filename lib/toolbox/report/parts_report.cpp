@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/output_file.h"
@@ -79,7 +80,7 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   // Faces between two parts are deep inside the grain, so their distances would use up the scale.
   const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
                                            execution, outer_points(result.parts));
-  const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
+  const std::string name = std::filesystem::path(origin.source).filename().string();
   HtmlDocument page(std::to_string(result.parts.size()) +
                     (result.parts.size() == 1 ? " convex part" : " convex parts") +
                     (name.empty() ? "" : " of " + name));

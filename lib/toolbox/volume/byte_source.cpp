@@ -490,7 +490,7 @@ std::unique_ptr<ByteSource> joined_bytes(
 std::uint64_t file_size(const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) refuse_to_open(path, error.value());
+  if (error) refuse_to_open(path, error.default_error_condition().value());
   return size;
 }
 

@@ -2,7 +2,6 @@
 #include "toolbox/volume/image_stack.h"
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/file_name.h"
+#include "wscvt/base/numbered_names.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -51,7 +51,7 @@ FolderContent content_of(const std::string& folder) {
   }
   // Compares numbers in names by value: 9 before 10.
   const auto comes_before = [](const std::string& a, const std::string& b) {
-    return ::strverscmp(a.c_str(), b.c_str()) < 0;
+    return compare_numbered(a, b) < 0;
   };
   std::sort(content.tiffs.begin(), content.tiffs.end(), comes_before);
   std::sort(content.pngs.begin(), content.pngs.end(), comes_before);

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/output_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <locale>
@@ -18,12 +10,15 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/system_files.h"
 
 namespace wscvt {
 
 namespace {
 
 namespace fs = std::filesystem;
+using system_files::Creation;
+using system_files::FileState;
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
   throw MachineRefused("\"" + path + "\" " + what);
@@ -36,25 +31,21 @@ namespace fs = std::filesystem;
 }
 
 /// Returns the name of a file while it is written. Names have at most 255 bytes, so a longer one
-/// loses its end.
+/// loses its end, by whole characters.
 std::string partial_name(const std::string& target) {
   constexpr std::size_t longest = 248;  // leaves room for ".part" and a number
   const fs::path path(target);
-  return (path.parent_path() / path.filename().string().substr(0, longest)).string() + ".part";
+  std::string name = path.filename().string();
+  if (name.size() > longest) {
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0U) == 0x80U) --end;
+    name.resize(end);
+  }
+  return (path.parent_path() / name).string() + ".part";
 }
 
 constexpr const char* check_the_folder =
     "cannot be written. Check that the folder exists and is writable.";
-
-/// Returns the descriptor for /dev/stdout and similar paths; nothing for other paths.
-std::optional<int> descriptor_of(const fs::path& path) {
-  const std::string folder = path.parent_path().string();
-  const std::string name = path.filename().string();
-  if (folder != "/dev/fd" && folder != "/proc/self/fd") return {};
-  if (name.empty() || name.size() > 6 || name.find_first_not_of("0123456789") != std::string::npos)
-    return {};
-  return std::atoi(name.c_str());
-}
 
 /// The target of a path.
 struct Target {
@@ -70,7 +61,7 @@ Target follow(const std::string& path) {
   Target target;
   target.path = fs::absolute(path, error).lexically_normal();
   for (int links = 0;; ++links) {
-    target.descriptor = descriptor_of(target.path);
+    target.descriptor = system_files::descriptor_of(target.path);
     if (target.descriptor || !fs::is_symlink(target.path, error)) return target;
     target.is_circle = links == most_links;
     if (target.is_circle) return target;
@@ -88,12 +79,9 @@ class PartialFile {
     // Never uses an existing file, because it may belong to someone.
     for (int attempt = 0; attempt < 100 && path_.empty(); ++attempt) {
       const std::string name = partial_name(target) + (attempt == 0 ? "" : std::to_string(attempt));
-      if (std::FILE* created = std::fopen(name.c_str(), "wbx")) {
-        std::fclose(created);
-        path_ = name;
-      } else if (errno != EEXIST) {
-        break;
-      }
+      const Creation creation = system_files::create_file(name);
+      if (creation == Creation::Done) path_ = name;
+      if (creation == Creation::Refused) break;
     }
   }
   PartialFile(const PartialFile&) = delete;
@@ -113,38 +101,16 @@ class PartialFile {
   std::string path_;
 };
 
-/// Writes to an open descriptor. Returns false if it accepts no more, or if a signal interrupts the
-/// wait.
-bool write_all(int descriptor, const std::string& content) {
-  std::size_t written = 0;
-  while (written < content.size()) {
-    const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
-    if (count <= 0) return false;
-    written += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
 /// Writes to pipes, devices and open descriptors, which a renamed file cannot replace.
 void write_through(const std::string& path, const Target& target,
                    const std::function<bool(std::ostream&)>& write) {
   std::ostringstream content;
   content.imbue(std::locale::classic());
   const bool made = write(content);
-  const int descriptor = target.descriptor ? ::dup(*target.descriptor)
-                                           : ::open(target.path.c_str(), O_WRONLY | O_NOCTTY);
-  bool good = made && content && descriptor >= 0 && write_all(descriptor, content.str());
-  if (descriptor >= 0) good = ::close(descriptor) == 0 && good;
+  const bool good = made && content &&
+                    (target.descriptor ? system_files::write_to(*target.descriptor, content.str())
+                                       : system_files::write_to(target.path, content.str()));
   if (!good) fail(path, "cannot be written. The program that reads it may have stopped.");
-}
-
-/// Gives the new file the owner and mode of the old file. Returns false if that is not allowed.
-bool take_over(const struct stat& old_file, const std::string& path) {
-  struct stat created {};
-  if (::stat(path.c_str(), &created) != 0) return false;
-  const bool owned = (created.st_uid == old_file.st_uid && created.st_gid == old_file.st_gid) ||
-                     ::chown(path.c_str(), old_file.st_uid, old_file.st_gid) == 0;
-  return owned && ::chmod(path.c_str(), old_file.st_mode & 07777U) == 0;
 }
 
 /// Copies a complete new file into an old file, which keeps its owner, mode and links.
@@ -161,30 +127,27 @@ void copy_into(const std::string& path, const std::string& target, PartialFile& 
 }
 
 /// Throws if the target cannot be written. Returns the status of an existing target.
-std::optional<struct stat> check_target(const std::string& path, const Target& target) {
+std::optional<FileState> check_target(const std::string& path, const Target& target) {
   if (target.is_circle) {
     fail(path, "is a link to a missing file. Remove it or give another name.");
   }
-  struct stat there {};
-  if (::stat(target.path.c_str(), &there) != 0) return {};
-  if (S_ISDIR(there.st_mode)) {
+  const std::optional<FileState> there = system_files::file_state(target.path);
+  if (there && there->is_folder) {
     fail(path, "is a folder and cannot be written. Check the name and add a file name.");
   }
-  if (::access(target.path.c_str(), W_OK) != 0) {
+  if (there && !there->is_writable) {
     fail(path, "cannot be written. Check its owner and its permissions.");
   }
   return there;
 }
-
-bool is_file(const struct stat& there) { return S_ISREG(there.st_mode); }
 
 }  // namespace
 
 void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write) {
   const Target target = follow(path);
   if (target.descriptor) return write_through(path, target, write);
-  const std::optional<struct stat> there = check_target(path, target);
-  if (there && !is_file(*there)) return write_through(path, target, write);
+  const std::optional<FileState> there = check_target(path, target);
+  if (there && !there->is_regular) return write_through(path, target, write);
 
   PartialFile partial(target.path.string());
   std::ofstream stream;
@@ -194,7 +157,7 @@ void write_file(const std::string& path, const std::function<bool(std::ostream&)
   const bool written = write(stream);
   stream.close();
   if (!written || !stream) fail_half_written(path);
-  if (there && (there->st_nlink > 1 || !take_over(*there, partial.path()))) {
+  if (there && (there->names > 1 || !system_files::take_over(*there, partial.path()))) {
     return copy_into(path, target.path.string(), partial);
   }
   std::error_code error;
@@ -217,14 +180,13 @@ void remove_partial_file(const std::string& path) {
 void check_writable(const std::string& path) {
   const Target target = follow(path);
   if (target.descriptor) {
-    const int mode = ::fcntl(*target.descriptor, F_GETFL);
-    if (mode == -1 || (mode & O_ACCMODE) == O_RDONLY) {
+    if (!system_files::accepts_output(*target.descriptor)) {
       fail(path, "is closed or read-only. Open it for writing.");
     }
     return;
   }
-  const std::optional<struct stat> there = check_target(path, target);
-  if (there && !is_file(*there)) return;
+  const std::optional<FileState> there = check_target(path, target);
+  if (there && !there->is_regular) return;
   // Makes and removes a file, the only test for rights, quotas and read-only disks.
   const PartialFile partial(target.path.string());
   if (partial.path().empty()) fail(path, check_the_folder);
@@ -235,13 +197,12 @@ bool same_file(const std::string& a, const std::string& b) {
   const Target target_a = follow(a);
   const Target target_b = follow(b);
   if (target_a.descriptor || target_b.descriptor) return false;
-  struct stat there_a {};
-  struct stat there_b {};
-  const bool is_a = ::stat(target_a.path.c_str(), &there_a) == 0;
-  const bool is_b = ::stat(target_b.path.c_str(), &there_b) == 0;
-  if (is_a != is_b) return false;
-  if (is_a) {
-    return is_file(there_a) && there_a.st_dev == there_b.st_dev && there_a.st_ino == there_b.st_ino;
+  const std::optional<FileState> there_a = system_files::file_state(target_a.path);
+  const std::optional<FileState> there_b = system_files::file_state(target_b.path);
+  if (there_a.has_value() != there_b.has_value()) return false;
+  if (there_a) {
+    return there_a->is_regular && there_a->device == there_b->device &&
+           there_a->number == there_b->number;
   }
   const auto canonical = [](const fs::path& path) {
     std::error_code error;

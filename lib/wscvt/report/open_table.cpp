@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/open_table.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/system_files.h"
 
-// Streams of the standard library can neither lock nor truncate a file.
 namespace wscvt {
 
 namespace {
@@ -22,51 +18,38 @@ namespace {
 
 }  // namespace
 
-OpenTable::OpenTable(std::string path, TableUse use) : path_(std::move(path)) {
-  const int flags = use == TableUse::Read ? O_RDONLY : O_RDWR | O_CREAT | O_APPEND;
-  descriptor_ = ::open(path_.c_str(), flags | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail_table(path_, "cannot be opened. Check that it is a file and yours.");
-  const bool waits = use != TableUse::AppendAlone;
-  if (::flock(descriptor_, LOCK_EX | (waits ? 0 : LOCK_NB)) != 0 && errno == EWOULDBLOCK) {
-    ::close(descriptor_);
+OpenTable::OpenTable(std::string path, TableUse use)
+    : path_(std::move(path)), file_(std::make_unique<system_files::LockedFile>()) {
+  using system_files::Opening;
+  const Opening opening = file_->open(path_, use != TableUse::Read, use != TableUse::AppendAlone);
+  if (opening == Opening::Refused) {
+    fail_table(path_, "cannot be opened. Check that it is a file and yours.");
+  }
+  if (opening == Opening::Locked) {
     fail_table(path_, "is being written by another batch. Wait for it, or give another folder.");
   }
 }
 
-OpenTable::~OpenTable() { ::close(descriptor_); }
+OpenTable::~OpenTable() = default;
 
 std::size_t OpenTable::size() const {
-  struct stat state {};
-  if (::fstat(descriptor_, &state) != 0) fail_table(path_, "cannot be read. Check the disk.");
-  return static_cast<std::size_t>(state.st_size);
+  const auto size = file_->size();
+  if (!size) fail_table(path_, "cannot be read. Check the disk.");
+  return *size;
 }
 
 std::string OpenTable::read(std::size_t from, std::size_t size) const {
-  std::string bytes(size, '\0');
-  std::size_t have = 0;
-  while (have < size) {
-    const ssize_t count =
-        ::pread(descriptor_, bytes.data() + have, size - have, static_cast<off_t>(from + have));
-    if (count < 0) fail_table(path_, "cannot be read. Check the disk.");
-    if (count == 0) break;
-    have += static_cast<std::size_t>(count);
-  }
-  bytes.resize(have);
-  return bytes;
+  auto bytes = file_->read(from, size);
+  if (!bytes) fail_table(path_, "cannot be read. Check the disk.");
+  return std::move(*bytes);
 }
 
 void OpenTable::append(const std::string& bytes) const {
   const std::size_t before = size();
-  std::size_t written = 0;
-  while (written < bytes.size()) {
-    const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    written += static_cast<std::size_t>(count);
-  }
-  if (written == bytes.size()) return;
-  const bool restored = ::ftruncate(descriptor_, static_cast<off_t>(before)) == 0;
-  if (before == 0) ::unlink(path_.c_str());
+  if (file_->append(bytes)) return;
+  const bool restored = file_->cut(before);
+  std::error_code ignored;
+  if (before == 0) std::filesystem::remove(path_, ignored);
   fail_table(
       path_,
       restored
@@ -75,7 +58,7 @@ void OpenTable::append(const std::string& bytes) const {
 }
 
 void OpenTable::cut(std::size_t size) const {
-  if (::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) return;
+  if (file_->cut(size)) return;
   fail_table(path_, "ends within a row that cannot be removed. Check the owner of the file.");
 }
 

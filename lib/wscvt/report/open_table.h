@@ -2,9 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 namespace wscvt {
+
+namespace system_files {
+class LockedFile;
+}
 
 enum class TableUse {
   Read,
@@ -40,7 +45,7 @@ class OpenTable {
 
  private:
   std::string path_;
-  int descriptor_;
+  std::unique_ptr<system_files::LockedFile> file_;
 };
 
 }  // namespace wscvt

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,7 +64,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   }
   const PageFigures figures = page_figures(reference, {result.mesh, "remesh"}, execution);
 
-  const std::string name = origin.source.substr(origin.source.find_last_of('/') + 1);
+  const std::string name = std::filesystem::path(origin.source).filename().string();
   HtmlDocument page("Remesh" + (name.empty() ? "" : " of " + name) + " with " +
                     std::to_string(result.mesh.points.size()) + " nodes");
   page.add_paragraph(origin_sentence(origin));
