@@ -121,5 +121,31 @@ TEST(FitSamples, LeaveOutFacesOfNoArea) {
   }
 }
 
+TEST(FitSamples, ComeBackOverTheRimFromTheSheetBehind) {
+  const IndexedMesh lens = test::scaled(test::sphere(3), Vector3(1.0, 1.0, 0.05));
+  FitState state = test::fit_state(lens, test::editable(lens));
+  EditMesh& mesh = state.mesh;
+  // The upper sheet rises to six times its height, so that the lower one is nearer.
+  for (Vector3& p : mesh.points) p.z() *= p.z() > 0.0 ? 6.0 : 1.0;
+  const auto faces_up = [&](std::size_t t) { return state.unit_normal(t).z() > 0.0; };
+  int moved = 0;
+  for (std::size_t h = 0; h < mesh.opposite.size(); ++h) {
+    const std::size_t above = face_of(mesh.opposite[h]);
+    if (faces_up(face_of(static_cast<std::int32_t>(h))) || !faces_up(above)) continue;
+    for (const std::int32_t s : state.of[above]) {
+      FitSample& sample = state.samples[static_cast<std::size_t>(s)];
+      sample.face = static_cast<std::int32_t>(face_of(static_cast<std::int32_t>(h)));
+      ++moved;
+    }
+  }
+  ASSERT_GT(moved, 100);
+  state.place_samples(Execution(1));
+  test::expect_in_step(state);
+  for (const FitSample& sample : state.samples) {
+    const Vector3 normal = state.unit_normal(static_cast<std::size_t>(sample.face));
+    ASSERT_GE(normal.dot(sample.normal), 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -119,10 +119,9 @@ class SurfaceFit {
 
   bool has_angles_below(double degrees) const {
     const double limit = cosine_of_degrees(degrees);
-    for (std::size_t t = 0; t < state_.mesh.triangles.size(); ++t) {
-      if (state_.mesh.sharpness(t) > limit) return true;
-    }
-    return false;
+    std::size_t t = 0;
+    while (t < state_.mesh.triangles.size() && state_.mesh.sharpness(t) <= limit) ++t;
+    return t < state_.mesh.triangles.size();
   }
 
   /// Repairs remaining small angles at a rising price, and from the third pass on at any price.

@@ -81,8 +81,8 @@ bool polish_node(FitState& state, std::int32_t v) {
   if (!find_better(state, fan, at)) return false;
   const double sharpness_before = fan_sharpness(fan, fan.centre);
   const double sharpness_after = fan_sharpness(fan, at);
-  if (!fan_is_fine(state, fan, at, state.about)) {
-    if (fan_is_fine(state, fan, fan.centre, state.about) || sharpness_after > sharpness_before ||
+  if (!fan_is_fine(state, fan, at)) {
+    if (fan_is_fine(state, fan, fan.centre) || sharpness_after > sharpness_before ||
         folds_more(state, ring, fan, at)) {
       return false;
     }

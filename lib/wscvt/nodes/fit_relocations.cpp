@@ -69,7 +69,6 @@ class Relocations {
             1,
             static_cast<std::size_t>(relocated_share * static_cast<double>(mesh_.points.size())))),
         spring_(relocation_springs * state.spring()),
-        about_(state.about),
         face_errors_(mesh_.triangles.size()),
         locked_(mesh_.points.size(), 0) {
     for (std::size_t t = 0; t < face_errors_.size(); ++t) {
@@ -241,7 +240,8 @@ class Relocations {
       const Vector3& y = mesh_.points[corner(j + 1)];
       if (largest_corner_cosine(centre, x, y) > state_.round.early_sharpness) return never;
       normals[j] = unit_normal_of(centre, x, y);
-      const Vector3 outward = about_[u] + about_[corner(j)] + about_[corner(j + 1)];
+      const Vector3 outward =
+          state_.about[u] + state_.about[corner(j)] + state_.about[corner(j + 1)];
       if (normals[j].dot(outward) < merged_agreement * outward.norm()) return never;
       const double excess = state_.excess(centre, x, y);
       cost += state_.round.price * excess * excess;
@@ -326,7 +326,7 @@ class Relocations {
       last = energy;
       at += equations.step(0.4 * fan.rest);
     }
-    insertion.gain = fan_is_fine(state_, fan, insertion.at, about_) ? before - best : -1.0;
+    insertion.gain = fan_is_fine(state_, fan, insertion.at) ? before - best : -1.0;
   }
 
   /// Returns the first removal from `first` on with node and ring outside a quad and not locked.
@@ -444,7 +444,6 @@ class Relocations {
   EditMesh& mesh_;
   std::size_t most_;
   double spring_;
-  const std::vector<Vector3>& about_;
   std::vector<double> face_errors_;
   std::vector<char> locked_;
   std::vector<Removal> removals_;

@@ -153,30 +153,33 @@ constexpr std::size_t placed_samples_block = 2048;
 constexpr double turned_distance = 2.0;
 
 /// Returns the nearest triangle that faces as the sample does, from star to star of the nearest
-/// nodes.
-std::int32_t first_face(const EditMesh& mesh, const std::vector<Vector3>& normals,
-                        const FitSample& sample, std::int32_t node, double edge) {
+/// nodes, from each corner of a triangle. One corner alone finds it less often.
+std::int32_t facing_triangle(const EditMesh& mesh, const std::vector<Vector3>& normals,
+                             const FitSample& sample, std::int32_t from, double edge) {
   constexpr int most_stars = 100;
   std::int32_t face = -1;
   double best = 1e300;
-  for (int star = 0; star < most_stars; ++star) {
+  for (std::int32_t node : mesh.triangles[from]) {
+    double least = 1e300;
     std::int32_t next = -1;
-    mesh.around(node, [&](std::int32_t h) {
-      const std::size_t t = face_of(h);
-      const double cosine = normals[t].dot(sample.normal);
-      const double turned = turned_distance * edge * std::max(0.0, face_agreement - cosine);
-      if (turned * turned >= best) return;
-      const TrianglePlace place = nearest_in_triangle(sample.point, mesh, t);
-      const double cost = place.squared_distance + turned * turned;
-      if (cost >= best) return;
-      best = cost;
-      face = static_cast<std::int32_t>(t);
-      Eigen::Index corner = 0;
-      place.weights.maxCoeff(&corner);
-      next = mesh.triangles[t][corner];
-    });
-    if (next < 0 || next == node) break;
-    node = next;
+    for (int star = 0; star < most_stars && next != node; ++star) {
+      if (next >= 0) node = next;
+      mesh.around(node, [&](std::int32_t h) {
+        const std::size_t t = face_of(h);
+        const double cosine = normals[t].dot(sample.normal);
+        const double turned = turned_distance * edge * std::max(0.0, face_agreement - cosine);
+        if (turned * turned >= least) return;
+        const TrianglePlace place = nearest_in_triangle(sample.point, mesh, t);
+        const double cost = place.squared_distance + turned * turned;
+        if (cost >= least) return;
+        least = cost;
+        if (cost < best) face = static_cast<std::int32_t>(t);
+        best = std::min(best, cost);
+        Eigen::Index corner = 0;
+        place.weights.maxCoeff(&corner);
+        next = mesh.triangles[t][corner];
+      });
+    }
   }
   return face;
 }
@@ -188,15 +191,14 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
                    const Execution& execution)
     : mesh(std::move(start)), samples(std::move(scan_samples)), dial(fit_dial) {
   edge = mean_edge_length(mesh);
-  std::vector<Vector3> normals(mesh.triangles.size());
-  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = unit_normal(t);
+  const std::vector<Vector3> normals = unit_normals();
   execution.parallel_for(
       samples.size(), placed_samples_block, [&](std::size_t begin, std::size_t end) {
         for (std::size_t s = begin; s < end; ++s) {
           std::int32_t face = static_cast<std::int32_t>(face_of(mesh.first[near[s]]));
           walk_to_nearest(samples[s].point, mesh, face);
           if (normals[face].dot(samples[s].normal) < face_agreement) {
-            face = first_face(mesh, normals, samples[s], near[s], edge);
+            face = facing_triangle(mesh, normals, samples[s], face_of(mesh.first[near[s]]), edge);
             walk_to_nearest(samples[s].point, mesh, face);
           }
           samples[s].face = face;
@@ -253,12 +255,20 @@ double FitState::excess(std::size_t t) const {
 }
 
 void FitState::place_samples(const Execution& execution) {
+  const std::vector<Vector3> normals = unit_normals();
   const double sum = execution.parallel_sum(
       samples.size(), placed_samples_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
         for (std::size_t s = begin; s < end; ++s) {
-          samples[s].place = walk_to_nearest(samples[s].point, mesh, samples[s].face);
-          part += samples[s].place.squared_distance;
+          FitSample& sample = samples[s];
+          const std::int32_t last = sample.face;
+          sample.place = walk_to_nearest(sample.point, mesh, sample.face);
+          // Over a rim, the walk may come to the sheet behind, which the sample would pull up.
+          if (normals[sample.face].dot(sample.normal) < 0.0) {
+            sample.face = facing_triangle(mesh, normals, sample, last, edge);
+            sample.place = nearest_in_triangle(sample.point, mesh, sample.face);
+          }
+          part += sample.place.squared_distance;
         }
         return part;
       });
@@ -367,6 +377,12 @@ void FitState::read_spacing() {
   }
 }
 
+std::vector<Vector3> FitState::unit_normals() const {
+  std::vector<Vector3> normals(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = unit_normal(t);
+  return normals;
+}
+
 Vector3 FitState::unit_normal(std::size_t t) const {
   const auto& [a, b, c] = mesh.triangles[t];
   return unit_normal_of(mesh.points[a], mesh.points[b], mesh.points[c]);
@@ -418,14 +434,6 @@ std::vector<MeasuredTriangle> triangles_of(const FitFan& fan, const Vector3& at)
     triangles.emplace_back(at, fan.ring[j], fan.ring[j + 1 == count ? 0 : j + 1]);
   }
   return triangles;
-}
-
-FanPlace remembered_place(const FitState& state, FitFan& fan,
-                          const std::vector<MeasuredTriangle>& triangles, std::size_t i) {
-  const FanPlace place =
-      place_in_fan(triangles, state.samples[fan.samples[i]].point, fan.places[i]);
-  fan.places[i] = static_cast<std::int32_t>(place.triangle);
-  return place;
 }
 
 void add_sample(const FitState& state, const FitFan& fan, const Vector3& at,
@@ -519,8 +527,9 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEqua
   fan.counts.assign(count, 0);
   fan.nearest = 1e300;
   for (std::size_t i = 0; i < fan.samples.size(); ++i) {
-    const FanPlace in = remembered_place(state, fan, triangles, i);
     const FitSample& sample = state.samples[fan.samples[i]];
+    const FanPlace in = place_in_fan(triangles, sample.point, fan.places[i]);
+    fan.places[i] = static_cast<std::int32_t>(in.triangle);
     fan.normals[in.triangle] += sample.normal;
     ++fan.counts[in.triangle];
     fan.nearest = std::min(fan.nearest, (sample.point - at).squaredNorm());
@@ -534,8 +543,7 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at, FanEqua
   return energy;
 }
 
-bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
-                 const std::vector<Vector3>& about) {
+bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at) {
   constexpr int enough = 3;
   const std::size_t count = fan.ring.size();
   if (fan.looked_at != at) fan_energy(state, fan, at);
@@ -545,7 +553,7 @@ bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
     Vector3 outward = fan.normals[j];
     if (fan.counts[j] < enough) {
       if (fan.counts[j] > 0) outward /= fan.counts[j];
-      outward += about[fan.nodes[j]] + about[fan.nodes[next]];
+      outward += state.about[fan.nodes[j]] + state.about[fan.nodes[next]];
     }
     const Vector3 normal = unit_normal_of(at, fan.ring[j], fan.ring[next]);
     if (normal.dot(outward) < face_agreement * outward.norm()) return false;

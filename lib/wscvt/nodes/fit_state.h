@@ -134,7 +134,9 @@ struct FitState {
                 std::array<Vector3, 3>* gradient = nullptr) const;
   double excess(std::size_t t) const;
 
-  /// Walks every sample to the nearest triangle, and updates the mean square and the lists.
+  /// Walks every sample to the nearest triangle of its sheet, and updates the mean square and the
+  /// lists. A sample that comes to a triangle which faces against it goes to the nearest one that
+  /// does not.
   void place_samples(const Execution& execution);
   /// Rebuilds `of`, `sample_normals` and `about`, and `spacing` if any sample has another than 1.
   void list_samples();
@@ -150,6 +152,7 @@ struct FitState {
   void build_hash() { hash.build(mesh, edge > 0.0 ? edge : mean_edge_length(mesh)); }
 
   Vector3 unit_normal(std::size_t t) const;
+  std::vector<Vector3> unit_normals() const;  ///< of all triangles
 };
 
 /// Returns the unit normal of a triangle; zero if it has no area.
@@ -207,9 +210,8 @@ double fan_energy(const FitState& state, FitFan& fan, const Vector3& at,
 
 /// Returns whether every triangle of the fan faces as its samples do and keeps the angle of the
 /// round, and the node has a sample near. A triangle with few samples is compared with the samples
-/// about its corners (`about`, of FitState).
-bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at,
-                 const std::vector<Vector3>& about);
+/// about its corners (`state.about`).
+bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at);
 
 /// Returns the cosine of the fan's smallest angle with its node at `at`.
 double fan_sharpness(const FitFan& fan, const Vector3& at);

@@ -452,16 +452,9 @@ class GuardedMove {
         old_(mesh_.points),
         shares_(mesh_.points.size(), 1.0),
         marked_(mesh_.points.size(), 1),
-        old_normals_(mesh_.triangles.size()),
-        outward_(mesh_.triangles.size()) {
-    const std::vector<Vector3>& about = state_.about;
-    const auto look = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        old_normals_[t] = state_.unit_normal(t);
-        outward_[t] = outward_of(t, about);
-      }
-    };
-    execution_.parallel_for(mesh_.triangles.size(), guarded_block, look);
+        old_normals_(state.unit_normals()) {
+    outward_.reserve(old_normals_.size());
+    for (std::size_t t = 0; t < old_normals_.size(); ++t) outward_.push_back(outward_of(t));
   }
 
   void run() {
@@ -496,8 +489,9 @@ class GuardedMove {
   }
 
  private:
-  Vector3 outward_of(std::size_t t, const std::vector<Vector3>& about) const {
+  Vector3 outward_of(std::size_t t) const {
     const auto& [a, b, c] = mesh_.triangles[t];
+    const std::vector<Vector3>& about = state_.about;
     const Vector3 sum =
         state_.of[t].size() >= enough_samples
             ? state_.sample_normals[t]
@@ -506,9 +500,6 @@ class GuardedMove {
     return length > 0.0 ? Vector3(sum / length) : sum;
   }
 
-  void mark(std::size_t t) {
-    for (const std::int32_t v : mesh_.triangles[t]) marked_[v] = 1;
-  }
   /// Marks the nodes that have a step left; returns whether there are any.
   bool mark_free(std::size_t t) {
     bool any = false;
@@ -559,7 +550,7 @@ class GuardedMove {
     bool any = false;
     for (std::size_t t = 0; t < spoilt.size(); ++t) {
       if (spoilt[t] == 0) continue;
-      mark(t);
+      for (const std::int32_t v : mesh_.triangles[t]) marked_[v] = 1;
       any = true;
     }
     return any;
