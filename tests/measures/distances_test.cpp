@@ -234,5 +234,53 @@ TEST(Distances, CanBeCancelled) {
   }
 }
 
+/// Root mean square of the distances from one surface to another, by a tree of all faces.
+double rms_by_tree(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples) {
+  double squares = 0.0;
+  for (const double d :
+       MeshDistance(to).distances(area_uniform_samples(from, samples), Execution(1))) {
+    squares += d * d;
+  }
+  return std::sqrt(squares / static_cast<double>(samples));
+}
+
+/// To a mesh of many faces there is no tree, unless the other surface is far off.
+TEST(SampledDistances, OfManyFacesAreThoseOfATree) {
+  constexpr std::size_t samples = 200;
+  const IndexedMesh scan = test::lumpy(6);
+  ASSERT_GT(scan.triangles.size(), 100 * samples);
+  IndexedMesh flat = test::sphere(2);
+  for (Vector3& p : flat.points) p.z() *= 0.3;
+  for (const IndexedMesh& mesh :
+       {test::lumpy(2), test::sphere(2), flat,
+        test::transformed(test::lumpy(2), Eigen::Matrix3d::Identity(), Vector3(40, 0, 0))}) {
+    const MeshDistances measured = sampled_distances(mesh, scan, samples, Execution(2));
+    // The sums' last digits follow the order of adding.
+    const double to = rms_by_tree(mesh, scan, samples);
+    EXPECT_NEAR(measured.to_reference.root_mean_square, to, 1e-14 * to);
+    const double from = rms_by_tree(scan, mesh, samples);
+    EXPECT_NEAR(measured.from_reference.root_mean_square, from, 1e-14 * from);
+    const std::vector<double> distances =
+        MeshDistance(scan).distances(area_uniform_samples(mesh, samples), Execution(1));
+    EXPECT_EQ(measured.to_reference.maximum, *std::max_element(distances.begin(), distances.end()));
+  }
+}
+
+/// A few large faces beside many small ones, which a choice by number would leave out.
+TEST(SampledDistances, FindLargeFacesAmongManySmallOnes) {
+  IndexedMesh mixed = test::box(10, 10, 10);
+  IndexedMesh fine = test::sphere(5);
+  for (Vector3& p : fine.points) p = 0.01 * p + Vector3(5, 5, 5);
+  const auto shift = static_cast<std::int32_t>(mixed.points.size());
+  mixed.points.insert(mixed.points.end(), fine.points.begin(), fine.points.end());
+  for (const Triangle& t : fine.triangles) {
+    mixed.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  }
+  const IndexedMesh near = test::box(10.1, 10.1, 10.1);
+  const double expected = rms_by_tree(near, mixed, 300);
+  EXPECT_NEAR(sampled_distances(near, mixed, 300, Execution(1)).to_reference.root_mean_square,
+              expected, 1e-14 * expected);
+}
+
 }  // namespace
 }  // namespace wscvt

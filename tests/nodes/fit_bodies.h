@@ -21,10 +21,6 @@ inline EditMesh editable(const IndexedMesh& mesh) {
   return EditMesh(mesh.points, mesh.triangles, Execution(1));
 }
 
-inline SampledScan sampled(const IndexedMesh& mesh) {
-  return {mesh, vertex_normals(mesh.points, mesh.triangles)};
-}
-
 /// Nodes that are to be fitted to a scan, with samples placed; in the first round, of evenness 1.
 inline FitState fit_state(const IndexedMesh& scan, EditMesh nodes, double ratio = 1.1,
                           int samples_a_node = 30) {
@@ -35,7 +31,7 @@ inline FitState fit_state(const IndexedMesh& scan, EditMesh nodes, double ratio 
   }
   const std::size_t count = nodes.points.size();
   std::vector<FitSample> samples =
-      draw_fit_samples(sampled(scan), static_cast<std::size_t>(samples_a_node) * count,
+      draw_fit_samples(scan, {}, static_cast<std::size_t>(samples_a_node) * count,
                        area / static_cast<double>(count));
   std::vector<std::int32_t> near;
   for (const FitSample& sample : samples) {

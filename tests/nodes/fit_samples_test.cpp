@@ -24,7 +24,7 @@ double area_of_faces(const IndexedMesh& mesh, std::size_t begin, std::size_t end
 TEST(FitSamples, LieOnTheScanOneInEachShareOfItsArea) {
   const IndexedMesh body = test::scaled(test::lumpy(3), Vector3(2.0, 1.0, 0.7));
   constexpr std::size_t count = 3000;
-  const std::vector<FitSample> samples = draw_fit_samples(test::sampled(body), count, 1e9);
+  const std::vector<FitSample> samples = draw_fit_samples(body, {}, count, 1e9);
   ASSERT_EQ(samples.size(), count);
   const FaceBoxes boxes(body, Execution(1), "boxes");
   const double area = area_of_faces(body, 0, body.triangles.size());
@@ -58,7 +58,7 @@ TEST(FitSamples, LieOnTheScanOneInEachShareOfItsArea) {
 
 TEST(FitSamples, NameTheCornerThatIsNearestInTheirFace) {
   const IndexedMesh ball = test::sphere(2);
-  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 2000, 1e9)) {
+  for (const FitSample& sample : draw_fit_samples(ball, {}, 2000, 1e9)) {
     double nearest = 1e300;
     for (const Vector3& p : ball.points) nearest = std::min(nearest, (p - sample.point).norm());
     // Faces are nearly equilateral, where the largest weight is about that of the nearest corner.
@@ -72,11 +72,11 @@ TEST(FitSamples, HaveNormalsOfVerticesOnFineFacesAndTheirOwnOnCoarseOnes) {
   const double face = area_of_faces(ball, 0, ball.triangles.size()) / 320.0;
   double fine = 0.0;
   double coarse = 0.0;
-  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 1000, 100.0 * face)) {
+  for (const FitSample& sample : draw_fit_samples(ball, {}, 1000, 100.0 * face)) {
     fine = std::max(fine, (sample.normal - sample.point.normalized()).norm());
   }
   const FaceBoxes boxes(ball, Execution(1), "boxes");
-  for (const FitSample& sample : draw_fit_samples(test::sampled(ball), 1000, 0.5 * face)) {
+  for (const FitSample& sample : draw_fit_samples(ball, {}, 1000, 0.5 * face)) {
     coarse = std::max(coarse, (sample.normal - sample.point.normalized()).norm());
     // Flat over its face: a small step along the face stays on it.
     const Vector3 aside = 1e-3 * sample.normal.unitOrthogonal();
@@ -91,7 +91,7 @@ TEST(FitSamples, AreSpreadEvenlyOverAFace) {
   const IndexedMesh body = test::scaled(test::tetrahedron(1.0), Vector3(1.0, 2.0, 0.6));
   std::vector<Vector3> sums(4, Vector3::Zero());
   std::vector<int> counts(4, 0);
-  for (const FitSample& sample : draw_fit_samples(test::sampled(body), 4000, 1e9)) {
+  for (const FitSample& sample : draw_fit_samples(body, {}, 4000, 1e9)) {
     for (std::size_t t = 0; t < 4; ++t) {
       const auto& [a, b, c] = body.triangles[t];
       const TrianglePlace place =
@@ -107,15 +107,24 @@ TEST(FitSamples, AreSpreadEvenlyOverAFace) {
   }
 }
 
+TEST(FitSamples, HaveTheNormalsOfTheScansVertices) {
+  const IndexedMesh body = test::lumpy(4);
+  const std::vector<Vector3> normals = vertex_normals(body.points, body.triangles);
+  const std::vector<FitSample> few = draw_fit_samples(body, {}, 100, 1e9);
+  const std::vector<FitSample> same = draw_fit_samples(body, normals, 100, 1e9);
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(few[i].normal, same[i].normal);
+    EXPECT_EQ(few[i].point, same[i].point);
+  }
+}
+
 TEST(FitSamples, LeaveOutFacesOfNoArea) {
   IndexedMesh ball = test::sphere(1);
   const std::size_t sound = ball.triangles.size();
   ball.triangles.insert(ball.triangles.begin(),
                         {ball.triangles[3][0], ball.triangles[3][0], ball.triangles[3][1]});
   ball.triangles.push_back({ball.triangles[7][0], ball.triangles[7][1], ball.triangles[7][1]});
-  const SampledScan scan = {ball,
-                            vertex_normals(test::sphere(1).points, test::sphere(1).triangles)};
-  for (const FitSample& sample : draw_fit_samples(scan, 5 * sound, 1.0)) {
+  for (const FitSample& sample : draw_fit_samples(ball, {}, 5 * sound, 1.0)) {
     ASSERT_TRUE(sample.point.allFinite());
     ASSERT_NEAR(sample.normal.norm(), 1.0, 1e-12);
   }

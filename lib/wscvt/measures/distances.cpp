@@ -3,9 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/plastic_sequence.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -126,6 +129,156 @@ std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t c
 
 namespace {
 
+/// Balls about points, and a grid of the cells that each reaches.
+class BallGrid {
+ public:
+  /// `squares`: of the radii.
+  BallGrid(const std::vector<Vector3>& points, const std::vector<double>& squares) {
+    low_ = points.front();
+    Vector3 high = low_;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vector3 reach = Vector3::Constant(std::sqrt(squares[i]));
+      low_ = low_.cwiseMin(points[i] - reach);
+      high = high.cwiseMax(points[i] + reach);
+    }
+    constexpr int cells_a_side = 64;                       // half or twice as many take as long
+    const std::size_t most_entries = 100 * points.size();  // usual are 10; then a tree is faster
+    const double extent = (high - low_).maxCoeff();
+    cells_a_length_ = extent > 0.0 ? cells_a_side / extent : 0.0;
+    most_ = cell_at(high);
+    const auto visit_cells = [&](std::size_t i, const auto& visit) {
+      const Vector3 reach = Vector3::Constant(std::sqrt(squares[i]));
+      for_cells(cell_at(points[i] - reach), cell_at(points[i] + reach), visit);
+    };
+    std::size_t entries = 0;
+    for (std::size_t i = 0; i < points.size() && entries <= most_entries; ++i) {
+      visit_cells(i, [&](std::size_t /*cell*/) { ++entries; });
+    }
+    is_crowded_ = entries > most_entries;
+    if (is_crowded_) return;
+    const auto cells = (most_ + Cell::Ones()).cast<std::size_t>().prod();
+    balls_ = counting_sort(points.size(), cells, visit_cells);
+  }
+
+  /// Whether the balls are too large for the grid, which is then empty.
+  bool is_crowded() const { return is_crowded_; }
+
+  /// Calls visit(ball), possibly several times, for each ball that a box may meet.
+  template <class Visit>
+  void visit(const Vector3& low, const Vector3& high, const Visit& visit) const {
+    const Cell first = cell_at(low).max(0);
+    const Cell last = cell_at(high).min(most_);
+    if ((first > last).any()) return;
+    for_cells(first, last, [&](std::size_t cell) {
+      for (auto ball = balls_.begin(cell); ball != balls_.end(cell); ++ball) visit(*ball);
+    });
+  }
+
+ private:
+  using Cell = Eigen::Array3i;
+
+  /// Bounded, so that a far point has a cell too.
+  Cell cell_at(const Vector3& point) const {
+    const Eigen::Array3d at = ((point - low_) * cells_a_length_).array();
+    return at.max(-1.0).min(1e6).floor().cast<int>();
+  }
+
+  template <class Visit>
+  void for_cells(const Cell& first, const Cell& last, const Visit& visit) const {
+    for (int x = first[0]; x <= last[0]; ++x) {
+      for (int y = first[1]; y <= last[1]; ++y) {
+        for (int z = first[2]; z <= last[2]; ++z) {
+          visit(static_cast<std::size_t>((x * (most_[1] + 1) + y) * (most_[2] + 1) + z));
+        }
+      }
+    }
+  }
+
+  Vector3 low_;
+  double cells_a_length_ = 0.0;
+  Cell most_ = Cell::Zero();
+  bool is_crowded_ = false;
+  Groups balls_;
+};
+
+/// Squares of distances, of which the smallest of several parts are wanted.
+struct SmallestSquares {
+  std::vector<double> values;
+
+  SmallestSquares& operator+=(const SmallestSquares& other) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = std::min(values[i], other.values[i]);
+    }
+    return *this;
+  }
+};
+
+/// Faces near which points are looked for, per point.
+constexpr std::size_t first_faces_a_point = 4;
+
+/// Returns the distances from points to a mesh of many more faces, as a tree of all faces would
+/// give them: such a tree takes six times the memory of the mesh. A tree of a few faces, spread
+/// evenly by area, gives each point a ball in which its nearest face lies; then all faces are
+/// looked through once. Returns nothing if the balls are too large for that.
+std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector<Vector3>& points,
+                                      const Execution& execution) {
+  IndexedMesh few;
+  std::int32_t last = -1;
+  for (const MeshPlace& place : area_uniform_places(mesh, first_faces_a_point * points.size())) {
+    if (place.triangle == std::exchange(last, place.triangle)) continue;
+    const auto corner = static_cast<std::int32_t>(few.points.size());
+    for (const std::int32_t v : mesh.triangles[place.triangle])
+      few.points.push_back(mesh.points[v]);
+    few.triangles.push_back({corner, corner + 1, corner + 2});
+  }
+  const FaceBoxes boxes(few, execution, distance_stage);
+  if (boxes.empty()) return {};
+  SmallestSquares bounds;
+  std::size_t near = 0;
+  for (const Vector3& point : points) {
+    bounds.values.push_back(boxes.squared_distance(point, near, 0.0));
+  }
+  const BallGrid grid(points, bounds.values);
+  if (grid.is_crowded()) return {};
+  constexpr std::size_t faces_a_part = 1 << 18;
+  bounds = execution.parallel_sum(
+      mesh.triangles.size(), faces_a_part, bounds, [&](std::size_t begin, std::size_t end) {
+        SmallestSquares part = bounds;
+        for (std::size_t f = begin; f < end; ++f) {
+          const auto& [a, b, c] = mesh.triangles[f];
+          const std::array<Vector3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+          const Vector3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+          const Vector3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+          grid.visit(low, high, [&](std::int32_t ball) {
+            const Vector3& point = points[ball];
+            double& smallest = part.values[ball];
+            if ((low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm() >= smallest ||
+                !(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) {
+              return;
+            }
+            smallest = std::min(smallest, squared_distance_to_face(corners, point));
+          });
+        }
+        return part;
+      });
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (const double square : bounds.values) distances.push_back(std::sqrt(square));
+  return distances;
+}
+
+/// Returns the distances from points to a mesh. The way is chosen for few points and one use.
+std::vector<double> distances_to(const IndexedMesh& mesh, const std::vector<Vector3>& points,
+                                 const Execution& execution) {
+  require_target_faces(mesh);
+  execution.report(0.0, distance_stage);
+  if (mesh.triangles.size() > 2 * first_faces_a_point * points.size()) {
+    std::vector<double> distances = distances_to_many(mesh, points, execution);
+    if (!distances.empty()) return distances;
+  }
+  return MeshDistance(mesh, execution).distances(points, execution);
+}
+
 struct DistanceSums {
   double sum = 0.0;
   double squares = 0.0;
@@ -153,11 +306,9 @@ DistanceSums sums_of(const std::vector<double>& distances, const Execution& exec
                                 });
 }
 
-OneSidedDistance of_samples(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
-                            const Execution& execution) {
-  const DistanceSums sums =
-      sums_of(to.distances(area_uniform_samples(from, samples), execution), execution);
-  const auto count = static_cast<double>(samples);
+OneSidedDistance of_samples(const std::vector<double>& distances, const Execution& execution) {
+  const DistanceSums sums = sums_of(distances, execution);
+  const auto count = static_cast<double>(distances.size());
   return {sums.maximum, std::sqrt(sums.squares / count), sums.sum / count};
 }
 
@@ -172,7 +323,8 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
   for (std::size_t i = 0; i < from.points.size(); ++i) {
     if (used[i] != 0) vertices.push_back(from.points[i]);
   }
-  OneSidedDistance result = of_samples(from, to, samples, execution);
+  OneSidedDistance result =
+      of_samples(to.distances(area_uniform_samples(from, samples), execution), execution);
   const DistanceSums corners = sums_of(to.distances(vertices, execution), execution);
   result.maximum = std::max(result.maximum, corners.maximum);
   return result;
@@ -212,16 +364,17 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution) {
   check_distance_options({samples});
-  const MeshDistance to_reference(reference, execution);
-  const MeshDistance to_mesh(mesh, execution);
-  return both_of(of_samples(mesh, to_reference, samples, execution),
-                 of_samples(reference, to_mesh, samples, execution));
+  const auto one_way = [&](const IndexedMesh& from, const IndexedMesh& to) {
+    return of_samples(distances_to(to, area_uniform_samples(from, samples), execution), execution);
+  };
+  return both_of(one_way(mesh, reference), one_way(reference, mesh));
 }
 
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
   check_distance_options({samples});
-  return of_samples(from, MeshDistance(to, execution), samples, execution).root_mean_square;
+  return of_samples(distances_to(to, area_uniform_samples(from, samples), execution), execution)
+      .root_mean_square;
 }
 
 void scale(MeshDistances& distances, double unit) {

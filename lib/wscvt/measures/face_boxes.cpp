@@ -24,13 +24,13 @@ Vector3 nearest_of(const std::array<Vector3, 3>& corners, const Vector3& point) 
   return weights[0] * (a - point) + weights[1] * (b - point) + weights[2] * (c - point);
 }
 
-double squared_distance(const std::array<Vector3, 3>& corners, const Vector3& point) {
+}  // namespace
+
+double squared_distance_to_face(const std::array<Vector3, 3>& corners, const Vector3& point) {
   const double square = nearest_of(corners, point).squaredNorm();
   // Ignore a needle if its area is lost in rounding; its neighbours cover it.
   return square >= 0.0 ? square : std::numeric_limits<double>::infinity();
 }
-
-}  // namespace
 
 /// Distributes faces by their centroids, half to each child along the axis of largest spread. Every
 /// node's index follows from the number of faces before it, so parts of the tree can be built in
@@ -39,24 +39,21 @@ class FaceBoxes::Builder {
  public:
   Builder(const IndexedMesh& mesh, FaceBoxes& boxes, const Execution& execution,
           const std::string& stage)
-      : boxes_(boxes) {
+      : mesh_(mesh), boxes_(boxes) {
     constexpr std::size_t faces_a_report = 1 << 18;  // some hundredths of a second
-    faces_.reserve(mesh.triangles.size());
     middles_.reserve(mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
       if (f % faces_a_report == 0) execution.report(0.0, stage);
-      const Triangle& t = mesh.triangles[f];
-      const Corners corners = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+      const auto face = static_cast<std::int32_t>(f);
+      const Corners corners = corners_of(face);
       // The neighbours of a face without area cover it.
       if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
-      middles_.push_back({corners[0] + corners[1] + corners[2], faces_.size()});
-      faces_.push_back(corners);
-      numbers_.push_back(static_cast<std::int32_t>(f));
+      middles_.push_back({corners[0] + corners[1] + corners[2], face});
     }
   }
 
   void run(const Execution& execution, const std::string& stage) {
-    const std::size_t count = faces_.size();
+    const std::size_t count = middles_.size();
     if (count == 0) return;
     boxes_.faces_.resize(count);
     boxes_.numbers_.resize(count);
@@ -73,7 +70,7 @@ class FaceBoxes::Builder {
  private:
   struct Middle {
     Vector3 sum;  ///< of the corners
-    std::size_t face;
+    std::int32_t face;
   };
   /// A node and its faces, in leaf order.
   struct Part {
@@ -88,6 +85,11 @@ class FaceBoxes::Builder {
     Part first() const { return {begin, middle(), node + 1}; }
     Part second() const { return {middle(), end, node + 2 * first_leaves()}; }
   };
+
+  Corners corners_of(std::int32_t face) const {
+    const Triangle& t = mesh_.triangles[face];
+    return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
+  }
 
   void split(const Part& part) {
     Vector3 low = middles_[part.begin].sum;
@@ -122,17 +124,17 @@ class FaceBoxes::Builder {
 
   void build(const Part& part) {
     if (part.is_leaf()) {
-      const Vector3& corner = faces_[middles_[part.begin].face][0];
+      const Vector3 corner = corners_of(middles_[part.begin].face)[0];
       Node leaf{corner, corner, static_cast<std::int32_t>(part.node + 1),
                 static_cast<std::int32_t>(part.begin)};
       for (std::size_t i = part.begin; i < part.end; ++i) {
-        const Corners& corners = faces_[middles_[i].face];
+        const Corners corners = corners_of(middles_[i].face);
         for (const Vector3& p : corners) {
           leaf.low = leaf.low.cwiseMin(p);
           leaf.high = leaf.high.cwiseMax(p);
         }
         boxes_.faces_[i] = corners;
-        boxes_.numbers_[i] = numbers_[middles_[i].face];
+        boxes_.numbers_[i] = middles_[i].face;
       }
       boxes_.nodes_[part.node] = leaf;
       return;
@@ -151,10 +153,9 @@ class FaceBoxes::Builder {
                                 second.beyond, -1};
   }
 
+  const IndexedMesh& mesh_;
   FaceBoxes& boxes_;
-  std::vector<Corners> faces_;  ///< in the mesh's order
-  std::vector<std::int32_t> numbers_;
-  std::vector<Middle> middles_;
+  std::vector<Middle> middles_;  ///< of the faces with area
   std::vector<Part> parts_;
   std::vector<Part> upper_;
 };
@@ -176,7 +177,7 @@ std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
 }
 
 double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, double enough) const {
-  double nearest = wscvt::squared_distance(faces_[face], point);
+  double nearest = squared_distance_to_face(faces_[face], point);
   // Visits the nearer child first, because for a point far inside, many faces are nearly as far as
   // the nearest.
   struct Open {
@@ -192,7 +193,7 @@ double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, doub
     const Node& node = nodes_[next.node];
     if (node.faces >= 0) {
       visit_faces(node, [&](std::size_t candidate) {
-        const double square = wscvt::squared_distance(faces_[candidate], point);
+        const double square = squared_distance_to_face(faces_[candidate], point);
         if (!(square < nearest)) return;
         nearest = square;
         face = candidate;
@@ -226,7 +227,7 @@ std::vector<std::size_t> FaceBoxes::faces_within(const Vector3& point, double di
     ++i;
     if (node.faces < 0) continue;
     visit_faces(node, [&](std::size_t face) {
-      if (wscvt::squared_distance(faces_[face], point) <= square) faces.push_back(face);
+      if (squared_distance_to_face(faces_[face], point) <= square) faces.push_back(face);
     });
   }
   return faces;

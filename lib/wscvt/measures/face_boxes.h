@@ -94,4 +94,8 @@ class FaceBoxes {
   std::vector<Node> nodes_;
 };
 
+/// Returns the square of the distance from a point to a face with an area; infinity if that is lost
+/// in rounding.
+double squared_distance_to_face(const std::array<Vector3, 3>& corners, const Vector3& point);
+
 }  // namespace wscvt

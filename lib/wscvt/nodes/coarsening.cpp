@@ -55,16 +55,13 @@ Coarsening::Coarsening(EditMesh scan, const std::vector<double>& density)
       vectors_[v] += third;
     }
   }
-  masses_ = areas_;
+  if (!density.empty()) masses_ = areas_;
   for (std::size_t v = 0; v < density.size(); ++v) masses_[v] *= density[v] * density[v];
-  into_.assign(count, -1);
-  free_.assign(mesh_.triangles.size(), 0);
-  marks_.assign(count, 0);
 }
 
 Vector3 Coarsening::merged(std::int32_t v, std::int32_t w) const {
   const auto hold = [&](std::int32_t i) {
-    return masses_[i] * (1.0 + rim_hold * rim_share(vectors_[i].norm() / (areas_[i] + 1e-300)));
+    return mass(i) * (1.0 + rim_hold * rim_share(vectors_[i].norm() / (areas_[i] + 1e-300)));
   };
   const double of_v = hold(v);
   const double of_w = hold(w);
@@ -72,20 +69,24 @@ Vector3 Coarsening::merged(std::int32_t v, std::int32_t w) const {
 }
 
 double Coarsening::cost(std::int32_t v, std::int32_t w) const {
-  const double ward = masses_[v] * masses_[w] / (masses_[v] + masses_[w] + 1e-300) *
-                      (mesh_.points[v] - mesh_.points[w]).squaredNorm();
+  const double of_v = mass(v);
+  const double of_w = mass(w);
+  const double ward =
+      of_v * of_w / (of_v + of_w + 1e-300) * (mesh_.points[v] - mesh_.points[w]).squaredNorm();
   const int above = mesh_.degrees[v] + mesh_.degrees[w] - 4 - high_degree;
   return above > 0 ? ward * (1.0 + degree_price * above * above) : ward;
 }
 
 bool Coarsening::common_neighbours_allow(std::int32_t v, std::int32_t w) {
-  ++mark_;
-  mesh_.around(v, [&](std::int32_t h) { marks_[mesh_.target(h)] = mark_; });
+  // One of the two is rarely a hub, so its list is short.
+  if (mesh_.degrees[v] > mesh_.degrees[w]) std::swap(v, w);
+  ring_.clear();
+  mesh_.around(v, [&](std::int32_t h) { ring_.push_back(mesh_.target(h)); });
   int common = 0;
   bool three = false;
   mesh_.around(w, [&](std::int32_t h) {
     const std::int32_t y = mesh_.target(h);
-    if (marks_[y] != mark_) return;
+    if (std::find(ring_.begin(), ring_.end(), y) == ring_.end()) return;
     ++common;
     three = three || mesh_.degrees[y] <= 3;
   });
@@ -145,7 +146,7 @@ bool Coarsening::possible(std::int32_t v, std::int32_t w) {
   if (!ignores_shapes_ && mesh_.degrees[v] + mesh_.degrees[w] - 4 > most_degree) return false;
   if (!common_neighbours_allow(v, w)) return false;
   if (ignores_shapes_) return true;
-  const double mass = masses_[v] + masses_[w];
+  const double mass = this->mass(v) + this->mass(w);
   const double area = areas_[v] + areas_[w];
   const double density = mass > 0.0 && area > 0.0 ? std::sqrt(mass / area) : 1.0;
   const double cell = area_ / alive_ / density;
@@ -162,12 +163,12 @@ bool Coarsening::possible(std::int32_t v, std::int32_t w) {
 void Coarsening::merge(std::int32_t v, std::int32_t w) {
   mesh_.points[w] = merged(v, w);
   areas_[w] += areas_[v];
-  masses_[w] += masses_[v];
+  if (!masses_.empty()) masses_[w] += masses_[v];
   vectors_[w] += vectors_[v];
   std::int32_t edge = mesh_.first[v];
   while (mesh_.target(edge) != w) edge = mesh_.opposite[previous_half_edge(edge)];
-  for (const std::int32_t t : mesh_.collapse(edge)) free_[t] = 1;
-  into_[v] = w;
+  for (const std::int32_t t : mesh_.collapse(edge)) mesh_.triangles[t][0] = -1;
+  mesh_.first[v] = -1 - w;
   --alive_;
 }
 
@@ -190,7 +191,7 @@ int Coarsening::sweep(int least) {
   const double limit = std::min(cheap_merge * cell * cell, last_merge * wanted * wanted);
   const auto count = static_cast<std::int32_t>(mesh_.points.size());
   for (std::int32_t v = 0; v < count && alive_ > least; ++v) {
-    if (into_[v] >= 0) continue;
+    if (is_merged(v)) continue;
     Merge next = cheapest_after(v, -1.0, -1);
     while (next.cost < limit && !possible(v, next.w)) next = cheapest_after(v, next.cost, next.w);
     if (next.cost < limit) merge(v, next.w);
@@ -225,8 +226,8 @@ class Coarsening::Queue {
     while (!queue_.empty()) {
       const Merge next = queue_.top();
       queue_.pop();
-      if (owner_.into_[next.v] >= 0 || next.time != times_[next.v]) continue;
-      if (owner_.into_[next.w] >= 0) {
+      if (owner_.is_merged(next.v) || next.time != times_[next.v]) continue;
+      if (owner_.is_merged(next.w)) {
         push(next.v);
         continue;
       }
@@ -268,68 +269,66 @@ bool Coarsening::reduce(int count, const Execution& execution) {
   return alive_ <= count;
 }
 
-void Coarsening::compact() {
-  const std::size_t count = mesh_.points.size();
-  std::vector<std::int32_t> map(count, -1);
-  std::int32_t next = 0;
-  for (std::size_t v = 0; v < count; ++v) {
-    if (into_[v] >= 0) continue;
-    mesh_.points[next] = mesh_.points[v];
-    areas_[next] = areas_[v];
-    masses_[next] = masses_[v];
-    vectors_[next] = vectors_[v];
-    map[v] = next++;
-  }
-  for (std::size_t v = 0; v < count; ++v) {
-    std::int32_t end = static_cast<std::int32_t>(v);
-    while (into_[end] >= 0) end = into_[end];
-    if (into_[v] >= 0) {
-      into_[v] = end;
-      map[v] = map[end];
-    }
-  }
-  std::size_t kept = 0;
-  std::vector<std::int32_t> faces(mesh_.triangles.size(), -1);
+/// Moves the triangles that are not free together. Links are renumbered, which is faster than to
+/// find them again. Half-edges of a later triangle wait as -1 - the number of their opposite.
+void Coarsening::renumber_faces() {
+  std::vector<std::int32_t>& opposite = mesh_.opposite;
+  std::int32_t kept = 0;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (free_[t] != 0) continue;
-    faces[t] = static_cast<std::int32_t>(kept);
-    const Triangle& old = mesh_.triangles[t];
-    mesh_.triangles[kept++] = {map[old[0]], map[old[1]], map[old[2]]};
-  }
-  // The links are renumbered, which is faster than to find them again.
-  const auto half_edge = [&](std::int32_t h) {
-    return 3 * faces[face_of(h)] + static_cast<std::int32_t>(corner_of(h));
-  };
-  for (std::size_t t = 0; t < faces.size(); ++t) {
-    if (faces[t] < 0) continue;
+    const Triangle corners = mesh_.triangles[t];
+    if (corners[0] < 0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      mesh_.opposite[3 * static_cast<std::size_t>(faces[t]) + k] =
-          half_edge(mesh_.opposite[3 * t + k]);
+      const auto old = static_cast<std::int32_t>(3 * t + k);
+      const std::int32_t now = 3 * kept + static_cast<std::int32_t>(k);
+      const std::int32_t other = opposite[old];
+      if (other < 0) {
+        opposite[-1 - other] = now;
+        opposite[now] = -1 - other;
+      } else {
+        opposite[other] = -1 - now;
+      }
+      // Triangles to come have larger numbers, so this one is not met again.
+      if (mesh_.first[corners[k]] == old) mesh_.first[corners[k]] = now;
     }
+    mesh_.triangles[kept++] = corners;
   }
-  for (std::size_t v = 0; v < count; ++v) {
-    if (into_[v] >= 0) continue;
-    mesh_.first[map[v]] = half_edge(mesh_.first[v]);
-    mesh_.degrees[map[v]] = mesh_.degrees[v];
-  }
-  mesh_.opposite.resize(3 * kept);
-  mesh_.first.resize(next);
-  mesh_.degrees.resize(next);
-  mesh_.points.resize(next);
-  areas_.resize(next);
-  masses_.resize(next);
-  vectors_.resize(next);
+  opposite.resize(3 * static_cast<std::size_t>(kept));
   mesh_.triangles.resize(kept);
-  into_.assign(next, -1);
-  free_.assign(kept, 0);
-  marks_.assign(next, 0);
-  mark_ = 0;
-  maps_.push_back(std::move(map));
 }
 
-std::int32_t Coarsening::cluster_of(std::int32_t vertex) const {
-  for (const std::vector<std::int32_t>& map : maps_) vertex = map[vertex];
-  return vertex;
+void Coarsening::compact() {
+  renumber_faces();
+  // The half-edges of the old vertices give way to the numbers of the new ones.
+  std::vector<std::int32_t> map = std::exchange(mesh_.first, {});
+  mesh_.first.reserve(alive_);
+  for (std::size_t v = 0; v < map.size(); ++v) {
+    if (map[v] < 0) continue;
+    const std::size_t next = mesh_.first.size();
+    mesh_.points[next] = mesh_.points[v];
+    mesh_.degrees[next] = mesh_.degrees[v];
+    areas_[next] = areas_[v];
+    if (!masses_.empty()) masses_[next] = masses_[v];
+    vectors_[next] = vectors_[v];
+    mesh_.first.push_back(map[v]);
+    map[v] = static_cast<std::int32_t>(next);
+  }
+  for (std::int32_t& number : map) {
+    while (number < 0) number = map[-1 - number];
+  }
+  const std::size_t count = mesh_.first.size();
+  mesh_.points.resize(count);
+  mesh_.degrees.resize(count);
+  areas_.resize(count);
+  if (!masses_.empty()) masses_.resize(count);
+  vectors_.resize(count);
+  for (Triangle& t : mesh_.triangles) {
+    for (std::int32_t& v : t) v = map[v];
+  }
+  if (clusters_.empty()) {
+    clusters_ = std::move(map);
+  } else {
+    for (std::int32_t& cluster : clusters_) cluster = map[cluster];
+  }
 }
 
 namespace {

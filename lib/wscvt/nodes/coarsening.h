@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -43,9 +44,12 @@ class Coarsening {
   void ignore_shapes() { ignores_shapes_ = true; }
   /// Returns the vertex that now represents a vertex of the mesh as it was at construction or at
   /// the last `forget`.
-  std::int32_t cluster_of(std::int32_t vertex) const;
-  /// Numbers of cluster_of refer to the current vertices from now on.
-  void forget() { maps_.clear(); }
+  std::int32_t cluster_of(std::int32_t vertex) const {
+    return clusters_.empty() ? vertex : clusters_[vertex];
+  }
+  /// Numbers of cluster_of refer to the current vertices from now on. Returns cluster_of for each
+  /// vertex until now; empty: identical.
+  std::vector<std::int32_t> forget() { return std::exchange(clusters_, {}); }
 
  private:
   struct Merge {
@@ -56,6 +60,8 @@ class Coarsening {
   };
   class Queue;
 
+  bool is_merged(std::int32_t v) const { return mesh_.first[v] < 0; }
+  double mass(std::int32_t v) const { return masses_.empty() ? areas_[v] : masses_[v]; }
   Vector3 merged(std::int32_t v, std::int32_t w) const;
   double cost(std::int32_t v, std::int32_t w) const;
   bool possible(std::int32_t v, std::int32_t w);
@@ -69,20 +75,21 @@ class Coarsening {
   /// Returns the cheapest merge at a vertex after the one of this cost with `last`, possible or
   /// not; `w` is -1 if there is none.
   Merge cheapest_after(std::int32_t v, double cost, std::int32_t last) const;
+  void renumber_faces();
   void compact();
 
+  // A scan of millions of vertices is held here a second time, so marks have no arrays of their
+  // own. `first` of a vertex that was merged into w is -1 - w. The first corner of a free triangle
+  // is -1.
   EditMesh mesh_;
   int alive_ = 0;
   bool ignores_shapes_ = false;
   double area_ = 0.0;
   std::vector<double> areas_;
-  std::vector<double> masses_;
+  std::vector<double> masses_;  ///< empty: the areas
   std::vector<Vector3> vectors_;
-  std::vector<std::int32_t> into_;  ///< target of a merged vertex; -1 for the others
-  std::vector<char> free_;          ///< triangles freed by a merge
-  std::vector<std::int32_t> marks_;
-  std::int32_t mark_ = 0;
-  std::vector<std::vector<std::int32_t>> maps_;  ///< of each compaction: old vertex to new
+  std::vector<std::int32_t> ring_;      ///< the neighbours of a vertex
+  std::vector<std::int32_t> clusters_;  ///< see cluster_of; empty: identical
 };
 
 /// Splits edges longer than `length` > 0 at their midpoints, the longest first, until there are

@@ -88,9 +88,43 @@ double face_normal_share(double area, double cell) {
   return smooth_step((area / cell - fine_face) / (coarse_face - fine_face));
 }
 
-FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Vector2d& random,
-                         double cell) {
-  const Triangle& corners = scan.mesh.triangles[t];
+/// The normals of vertex_normals at the corners of a few faces of a scan.
+class NormalsOfFaces {
+ public:
+  NormalsOfFaces(const IndexedMesh& scan, const std::vector<std::size_t>& faces)
+      : number_(scan.points.size(), -1) {
+    std::int32_t count = 0;
+    for (const std::size_t t : faces) {
+      for (const std::int32_t v : scan.triangles[t]) {
+        if (number_[v] < 0) number_[v] = count++;
+      }
+    }
+    normals_.assign(count, Vector3::Zero());
+    for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
+      const auto& [a, b, c] = scan.triangles[t];
+      if (number_[a] < 0 && number_[b] < 0 && number_[c] < 0) continue;
+      const Vector3 normal = normal_of(scan, t);
+      for (const std::int32_t v : {a, b, c}) {
+        if (number_[v] >= 0) normals_[number_[v]] += normal;
+      }
+    }
+    for (Vector3& normal : normals_) {
+      const double length = normal.norm();
+      if (length > 0.0) normal /= length;
+    }
+  }
+
+  const Vector3& operator[](std::int32_t v) const { return normals_[number_[v]]; }
+
+ private:
+  std::vector<std::int32_t> number_;  ///< of each vertex among the corners; -1 for the others
+  std::vector<Vector3> normals_;
+};
+
+template <class Normals>
+FitSample sample_in_face(const IndexedMesh& scan, const Normals& normals, std::size_t t,
+                         const Eigen::Vector2d& random, double cell) {
+  const Triangle& corners = scan.triangles[t];
   const double root = std::sqrt(random.x());
   const Vector3 w(1.0 - root, root * (1.0 - random.y()), root * random.y());
   FitSample sample;
@@ -98,11 +132,11 @@ FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Ve
   sample.normal.setZero();
   int nearest = 0;
   for (int k = 0; k < 3; ++k) {
-    sample.point += w[k] * scan.mesh.points[corners[k]];
-    sample.normal += w[k] * scan.normals[corners[k]];
+    sample.point += w[k] * scan.points[corners[k]];
+    sample.normal += w[k] * normals[corners[k]];
     if (w[k] > w[nearest]) nearest = k;
   }
-  const Vector3 face_normal = normal_of(scan.mesh, t);
+  const Vector3 face_normal = normal_of(scan, t);
   const double doubled_area = face_normal.norm();
   const double share = face_normal_share(0.5 * doubled_area, cell);
   const double length = sample.normal.norm();
@@ -119,17 +153,19 @@ FitSample sample_in_face(const SampledScan& scan, std::size_t t, const Eigen::Ve
 
 }  // namespace
 
-std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell) {
+std::vector<FitSample> draw_fit_samples(const IndexedMesh& scan,
+                                        const std::vector<Vector3>& normals, std::size_t count,
+                                        double cell) {
   constexpr double golden = 0.61803398874989485;  // its multiples modulo 1 are evenly distributed
-  const std::size_t faces = scan.mesh.triangles.size();
+  const std::size_t faces = scan.triangles.size();
   std::vector<double> doubled_areas(faces);
   double total = 0.0;
   for (std::size_t t = 0; t < faces; ++t) {
-    doubled_areas[t] = normal_of(scan.mesh, t).norm();
+    doubled_areas[t] = normal_of(scan, t).norm();
     total += doubled_areas[t];
   }
-  std::vector<FitSample> samples;
-  samples.reserve(count);
+  std::vector<std::size_t> drawn;
+  drawn.reserve(count);
   std::size_t t = 0;
   double up_to = doubled_areas.empty() ? 0.0 : doubled_areas[0];
   for (std::size_t i = 0; i < count; ++i) {
@@ -138,7 +174,19 @@ std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t cou
     const double wanted = (static_cast<double>(i) + jitter) / static_cast<double>(count) * total;
     while (t + 1 < faces && (up_to < wanted || doubled_areas[t] == 0.0))
       up_to += doubled_areas[++t];
-    samples.push_back(sample_in_face(scan, t, plastic_point(i), cell));
+    drawn.push_back(t);
+  }
+  std::vector<FitSample> samples;
+  samples.reserve(count);
+  const auto add_samples = [&](const auto& at_vertices) {
+    for (std::size_t i = 0; i < count; ++i) {
+      samples.push_back(sample_in_face(scan, at_vertices, drawn[i], plastic_point(i), cell));
+    }
+  };
+  if (normals.empty()) {
+    add_samples(NormalsOfFaces(scan, drawn));
+  } else {
+    add_samples(normals);
   }
   return samples;
 }

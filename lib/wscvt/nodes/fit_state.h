@@ -52,18 +52,15 @@ struct FitSample {
   TrianglePlace place;    ///< of that point
 };
 
-/// A scan from which samples are drawn.
-struct SampledScan {
-  IndexedMesh mesh;
-  std::vector<Vector3> normals;  ///< at the vertices, outward, unit
-};
-
 /// Returns `count` points of the scan, evenly distributed: one in each of `count` equal areas, in
 /// the order of its faces. Normals are interpolated between the vertices, which smooths the noise
-/// of a scan. If a face is as large as the cell of a node, its own normal is used instead; `cell`
+/// of a scan. `normals`: at the vertices, outward, unit; empty: those of vertex_normals. If a face
+/// is as large as the cell of a node, its own normal is used instead; `cell`
 /// is the area per node. The sample's `face` is the nearest vertex of its face; the caller replaces
 /// it. Deterministic.
-std::vector<FitSample> draw_fit_samples(const SampledScan& scan, std::size_t count, double cell);
+std::vector<FitSample> draw_fit_samples(const IndexedMesh& scan,
+                                        const std::vector<Vector3>& normals, std::size_t count,
+                                        double cell);
 
 /// A sample at the root mean square distance counts 1 + this, a more distant sample up to 1 + 9
 /// times this, so that a cone's tip is not lost to the mean.

@@ -83,7 +83,7 @@ std::size_t genus_of(const EditMesh& mesh) {
 }  // namespace
 
 struct ScanRemesher::Parts {
-  SampledScan scan;
+  const IndexedMesh& scan;
   Coarsening base;                          ///< of the scan, as far as for any number of nodes
   std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan's; empty: identical
   double volume = 0.0;
@@ -93,9 +93,15 @@ struct ScanRemesher::Parts {
 
 namespace {
 
+/// A scan with split faces.
+struct SplitScan {
+  IndexedMesh mesh;
+  std::vector<Vector3> normals;  ///< at the vertices, outward, unit
+};
+
 /// Nodes in preparation, with their surface.
 struct Placing {
-  SampledScan split;  ///< the scan with split faces, if needed
+  SplitScan split;  ///< if needed
   EqualizationSurface surface;
   std::vector<std::int32_t> on_surface;  ///< vertex of the surface for each of the scan's
   EditMesh nodes;                        ///< without triangles if there cannot be so few
@@ -124,8 +130,9 @@ bool has_long_faces(const IndexedMesh& scan, double cell) {
 
 /// Splits long edges; the normal of a new vertex is the mean of its edge's ends. Splitting scatters
 /// neighbours in memory, so vertices and faces are sorted again.
-SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, double area,
-                       std::size_t nodes, EditMesh& split, const Execution& execution) {
+SplitScan split_scan(const EditMesh& scan, double area, std::size_t nodes, EditMesh& split,
+                     const Execution& execution) {
+  std::vector<Vector3> normals = vertex_normals(scan.points, scan.triangles);
   split = scan;
   const double cell = area / static_cast<double>(split_vertices_a_node * nodes);
   const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
@@ -135,7 +142,7 @@ SampledScan split_scan(const EditMesh& scan, std::vector<Vector3> normals, doubl
     const double length = sum.norm();
     normals.push_back(length > 0.0 ? Vector3(sum / length) : sum);
   }
-  SampledScan ordered;
+  SplitScan ordered;
   ordered.normals.reserve(normals.size());
   for (const std::int32_t v : order_in_space(split.points, split.triangles)) {
     ordered.normals.push_back(normals[v]);
@@ -200,22 +207,17 @@ std::vector<std::int32_t> places_on(const EditMesh& surface, const EditMesh& nod
 
 }  // namespace
 
-ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options,
+ScanRemesher::ScanRemesher(const IndexedMesh& normalized_scan, const ScanNodesOptions& options,
                            int most_nodes, const Execution& execution)
     : options_(options) {
   check_scan_options(options);
   execution.report(0.0, "Coarsening the scan");
-  std::vector<Vector3> normals = vertex_normals(normalized_scan.points, normalized_scan.triangles);
   EditMesh mesh(normalized_scan.points, normalized_scan.triangles, execution);
   const MeshSums sums =
       mesh_sums(normalized_scan.points, normalized_scan.triangles, Vector3::Zero(), execution);
   const std::size_t genus = genus_of(mesh);
-  const auto parts = std::make_shared<Parts>(Parts{{std::move(normalized_scan), std::move(normals)},
-                                                   Coarsening(std::move(mesh), {}),
-                                                   {},
-                                                   sums.volume(),
-                                                   sums.area(),
-                                                   genus});
+  const auto parts = std::make_shared<Parts>(Parts{
+      normalized_scan, Coarsening(std::move(mesh), {}), {}, sums.volume(), sums.area(), genus});
   parts_ = parts;
   const std::size_t vertices = parts->base.size();
   // A number tried after a smaller one failed gives the same result as when it is asked for.
@@ -224,11 +226,8 @@ ScanRemesher::ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& 
                   static_cast<std::size_t>(most_tried_times * std::max(most_nodes, 4)),
               execution);
   if (parts->base.size() == vertices) return;
-  parts->base_clusters.resize(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    parts->base_clusters[v] = parts->base.cluster_of(static_cast<std::int32_t>(v));
-  }
-  parts->base.forget();
+  parts->base_clusters = parts->base.forget();
+  parts->base = Coarsening(parts->base);  // frees the memory for the whole scan
 }
 
 namespace {
@@ -239,15 +238,14 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
                          const Execution& execution) {
   Placing placing;
   Coarsening coarsening = parts.base;
-  const std::size_t scan_vertices = parts.scan.mesh.points.size();
+  const std::size_t scan_vertices = parts.scan.points.size();
   const auto nodes = static_cast<std::size_t>(node_count);
   const bool is_coarse = scan_vertices < least_vertices_a_node * nodes ||
                          (scan_vertices <= most_split_vertices_a_node * nodes &&
-                          has_long_faces(parts.scan.mesh, parts.area / node_count));
+                          has_long_faces(parts.scan, parts.area / node_count));
   if (is_coarse) {
     EditMesh split;
-    placing.split =
-        split_scan(parts.base.mesh(), parts.scan.normals, parts.area, nodes, split, execution);
+    placing.split = split_scan(parts.base.mesh(), parts.area, nodes, split, execution);
     coarsening = Coarsening(std::move(split), {});
   }
   sweep_below(coarsening, most_proxy_vertices_a_node * nodes, execution);
@@ -282,13 +280,15 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
 template <class Parts>
 std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& placing,
                                           const FitDial& dial, std::vector<std::int32_t>& near) {
-  const SampledScan& scan = placing.split.mesh.points.empty() ? parts.scan : placing.split;
+  const IndexedMesh& split = placing.split.mesh;
+  const IndexedMesh& scan = split.points.empty() ? parts.scan : split;
   const std::size_t nodes = placing.nodes.points.size();
-  const std::size_t wanted = nodes * static_cast<std::size_t>(parts.scan.mesh.points.size() < nodes
-                                                                  ? samples_of_coarse_scan
-                                                                  : dial.samples_a_node);
-  std::vector<FitSample> samples = draw_fit_samples(scan, std::max(wanted, fewest_samples),
-                                                    parts.area / static_cast<double>(nodes));
+  const std::size_t wanted =
+      nodes * static_cast<std::size_t>(parts.scan.points.size() < nodes ? samples_of_coarse_scan
+                                                                        : dial.samples_a_node);
+  std::vector<FitSample> samples =
+      draw_fit_samples(scan, placing.split.normals, std::max(wanted, fewest_samples),
+                       parts.area / static_cast<double>(nodes));
   near.reserve(samples.size());
   for (FitSample& sample : samples) {
     const std::int32_t vertex = placing.on_surface[sample.face];
@@ -345,7 +345,7 @@ ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const 
   if (!result) refuse_too_few(node_count, parts_->genus, enough_above(node_count, more));
   ScanNodesReport& report = result->report;
   if (report.self_intersections == 0) return *std::move(result);
-  report.scan_self_intersections = self_intersections(parts_->scan.mesh, more).size();
+  report.scan_self_intersections = self_intersections(parts_->scan, more).size();
   if (report.scan_self_intersections == 0) report.enough_nodes = enough_above(node_count, more);
   return *std::move(result);
 }
@@ -366,7 +366,7 @@ std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
   ScanNodesReport& report = result.report;
   Placing placing = coarsen_to_nodes(parts, options_, node_count, execution.part(0.0, 0.2));
   if (placing.nodes.triangles.empty()) return std::nullopt;
-  report.scan_vertices = parts.scan.mesh.points.size();
+  report.scan_vertices = parts.scan.points.size();
   if (!placing.split.mesh.points.empty()) {
     report.split_vertices = placing.split.mesh.points.size() - report.scan_vertices;
   }

@@ -30,12 +30,12 @@ struct ScanNodes {
 class ScanRemesher {
  public:
   /// `normalized_scan`: closed, connected, oriented outward, a 2-manifold (check_mesh), of
-  /// equivalent radius 1 about the origin. Faces without area are allowed. Computes everything that
-  /// does not depend on the number of nodes, for up to `most_nodes`. The result does not depend on
-  /// `most_nodes`.
+  /// equivalent radius 1 about the origin; it must outlive this. Faces without area are allowed.
+  /// Computes everything that does not depend on the number of nodes, for up to `most_nodes`. The
+  /// result does not depend on `most_nodes`.
   ///
   /// Throws Error(InvalidInput) for options out of range, Error(Cancelled).
-  ScanRemesher(IndexedMesh normalized_scan, const ScanNodesOptions& options, int most_nodes,
+  ScanRemesher(const IndexedMesh& normalized_scan, const ScanNodesOptions& options, int most_nodes,
                const Execution& execution);
 
   /// Places exactly `node_count` nodes, 4 to `most_nodes`. The same bytes on any number of threads.

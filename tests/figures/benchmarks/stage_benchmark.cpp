@@ -180,7 +180,8 @@ void cast_rays(benchmark::State& state) {
 void place_on_scan(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
   const auto nodes = static_cast<int>(state.range(0));
-  const ScanRemesher remesher(scan_of(100000), ScanNodesOptions(), nodes, execution);
+  const IndexedMesh& scan = scan_of(100000);
+  const ScanRemesher remesher(scan, ScanNodesOptions(), nodes, execution);
   for (auto _ : state) benchmark::DoNotOptimize(remesher.place(nodes, execution));
   count(state, state.range(0));
 }
