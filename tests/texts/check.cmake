@@ -23,7 +23,7 @@ if(count GREATER 250)
 endif()
 
 file(GLOB pages RELATIVE ${source_dir} ${source_dir}/lib/doc/*.md)
-set(texts README.md CONTRIBUTING.md ${pages} filter_wscvt/README.md filter_wscvt/host_blender/README.md lib/README.md lib/python/README.md meshes/README.md tests/README.md
+set(texts README.md CONTRIBUTING.md ${pages} filter_wscvt/README.md filter_wscvt/host_blender/README.md lib/README.md lib/c/README.md lib/python/README.md meshes/README.md tests/README.md
   tests/figures/benchmarks/README.md tests/figures/study/README.md tests/figures/study/contacts.md tests/figures/study/virtual_grains.md)
 foreach(text ${texts})
   get_filename_component(folder ${source_dir}/${text} DIRECTORY)
