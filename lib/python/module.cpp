@@ -20,6 +20,7 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_convex(module);
   wscvt::python::bind_fabric(module);
   wscvt::python::bind_fragment(module);
+  wscvt::python::bind_tetrahedra(module);
   wscvt::python::bind_clump(module);
   wscvt::python::bind_files(module);
   wscvt::python::bind_sample(module);

@@ -9,10 +9,10 @@ set -eu
 program=$(realpath "${1:?usage: run.sh PROGRAM FOLDER}")
 folder=$(realpath -m "${2:?usage: run.sh PROGRAM FOLDER}")
 here=$(realpath "$(dirname "$0")")
-for command in yade liggghts gmsh lmp; do
+for command in yade liggghts gmsh lmp ccx; do
   command -v "$command" > /dev/null || {
     echo "$command is not installed; run: apt-get install --no-install-recommends yade liggghts gmsh" \
-      "lammps libmujoco-dev libbullet-dev python3-vtk9 python3-numpy python3-matplotlib" >&2
+      "calculix-ccx lammps libmujoco-dev libbullet-dev python3-vtk9 python3-numpy python3-matplotlib" >&2
     exit 1
   }
 done
@@ -49,6 +49,13 @@ END
   liggghts -in "liggghts_$nodes.in" -log "liggghts_$nodes.log" > "liggghts_$nodes.out" 2>&1
   "$python" "$here/liggghts_test.py" "liggghts_$nodes.out" "$((2 * nodes - 4))"
 done
+
+# CalculiX presses a ball. Its force is that of Hertz but for the rough plates and the linear elements.
+"$program" create ellipsoid ball.ply -q -n 4000
+"$program" remesh -q ball.ply ball_500.ply -n 500 --tetrahedra ball.inp --tetrahedra-edge 0.3
+"$python" "$here/../../lib/examples/compression.py" ball.inp --by 5 | tee compression.log
+awk '{ hertz = 4 / 3 / (1 - 0.25 ^ 2) * 0.05 ^ 1.5
+       exit !($2 > hertz && $2 < 1.5 * hertz && ($2 - $7) ^ 2 < (1e-6 * $2) ^ 2) }' compression.log
 
 # Templates of nine bodies, packed by the files that stand beside them.
 mkdir -p bodies

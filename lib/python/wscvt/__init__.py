@@ -30,7 +30,7 @@ from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __v
 __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
            "fabric", "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
-           "sample", "signed_distances", "templates", "write_mesh"]
+           "sample", "signed_distances", "templates", "tetrahedra", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -457,6 +457,24 @@ def fragment(vertices, faces=None, fragments=20, *, near=None, **options):
     if near is not None:
         near = numpy.atleast_2d(numpy.asarray(near, dtype=float))
     return _wscvt.fragment(*_arrays(vertices, faces), fragments, near=near, **options)
+
+
+def tetrahedra(vertices, faces=None, *, edge=0.0, output=None, **options):
+    """Fills a closed mesh with tetrahedra for finite elements, by Gmsh, and returns a dictionary.
+
+    wscvt.tetrahedra(wscvt.remesh("scan.ply", 1000), output="body.inp")
+
+    vertices, faces: a closed mesh or a Remesh, as for remesh. Its points and triangles are kept.
+    edge: the longest wanted edge inside, in the mesh's unit. 0, the default: as on the surface.
+    output: also write this file: .vtu (ParaView), .msh (Gmsh) or .inp (Abaqus, CalculiX).
+    threads, progress: as for remesh.
+
+    vertices (n, 3): the mesh's, then the inner ones; tetrahedra (m, 4), the fourth corner sees the
+    others counter-clockwise; faces: the mesh's; smallest_dihedral_degrees and
+    largest_dihedral_degrees: angles between faces of a tetrahedron; mean_edge. Raises Error if Gmsh
+    is not there or cannot fill the mesh.
+    """
+    return _wscvt.tetrahedra(*_arrays(vertices, faces), edge=edge, output=output, **options)
 
 
 def read_mesh(path):
