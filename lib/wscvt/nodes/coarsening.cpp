@@ -331,6 +331,19 @@ void Coarsening::compact() {
   }
 }
 
+std::vector<std::int32_t> Coarsening::forget() {
+  // One array after another, because each is there twice for a moment.
+  mesh_.degrees.shrink_to_fit();
+  mesh_.first.shrink_to_fit();
+  areas_.shrink_to_fit();
+  masses_.shrink_to_fit();
+  mesh_.opposite.shrink_to_fit();
+  mesh_.triangles.shrink_to_fit();
+  mesh_.points.shrink_to_fit();
+  vectors_.shrink_to_fit();
+  return std::exchange(clusters_, {});
+}
+
 namespace {
 
 /// Squared length, half-edge, and its ends.

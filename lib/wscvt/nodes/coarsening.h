@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -47,9 +46,9 @@ class Coarsening {
   std::int32_t cluster_of(std::int32_t vertex) const {
     return clusters_.empty() ? vertex : clusters_[vertex];
   }
-  /// Numbers of cluster_of refer to the current vertices from now on. Returns cluster_of for each
-  /// vertex until now; empty: identical.
-  std::vector<std::int32_t> forget() { return std::exchange(clusters_, {}); }
+  /// Numbers of cluster_of refer to the current vertices from now on. Frees the memory of the
+  /// others. Returns cluster_of for each vertex until now; empty: identical.
+  std::vector<std::int32_t> forget();
 
  private:
   struct Merge {

@@ -227,7 +227,6 @@ ScanRemesher::ScanRemesher(const IndexedMesh& normalized_scan, const ScanNodesOp
               execution);
   if (parts->base.size() == vertices) return;
   parts->base_clusters = parts->base.forget();
-  parts->base = Coarsening(parts->base);  // frees the memory for the whole scan
 }
 
 namespace {

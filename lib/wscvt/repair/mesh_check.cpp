@@ -212,14 +212,50 @@ void find_stray_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
          " across. Correct this vertex, or remove it and its faces.");
 }
 
-void merge_seams(IndexedMesh& mesh, std::vector<std::int32_t>& rings, double diagonal,
-                 const Execution& execution, MeshCheckReport& report) {
-  const SeamWeld seams = find_seams(mesh, rings, diagonal, execution);
+/// A mesh with the rings of its edges, which are made when they are first needed after a change.
+/// For a million vertices they take a tenth of a second.
+class RingedMesh {
+ public:
+  RingedMesh(IndexedMesh mesh, const Execution& execution)
+      : mesh_(std::move(mesh)), execution_(execution) {}
+
+  const IndexedMesh& mesh() const { return mesh_; }
+  /// As edge_rings returns them.
+  const std::vector<std::int32_t>& rings() {
+    if (rings_.empty()) rings_ = edge_rings(mesh_, execution_);
+    return rings_;
+  }
+
+  /// Returns the mesh for a change that leaves all faces in their places; only names of vertices
+  /// may change.
+  IndexedMesh& with_same_faces() { return mesh_; }
+  /// Frees the rings.
+  IndexedMesh released() {
+    rings_ = {};
+    return std::move(mesh_);
+  }
+  /// Calls change(mesh), which returns whether any face was dropped, added or turned.
+  template <class Change>
+  void change_faces(const Change& change) {
+    if (change(mesh_)) rings_ = {};
+  }
+
+ private:
+  IndexedMesh mesh_;
+  const Execution& execution_;
+  std::vector<std::int32_t> rings_;
+};
+
+void merge_seams(RingedMesh& ringed, double diagonal, const Execution& execution,
+                 MeshCheckReport& report) {
+  const SeamWeld seams = find_seams(ringed.mesh(), ringed.rings(), diagonal, execution);
   if (seams.weld.welded == 0) return;
-  report.degenerate_faces += drop_degenerate_faces(mesh, seams.weld.first).faces;
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    report.degenerate_faces += drop_degenerate_faces(mesh, seams.weld.first).faces;
+    return true;
+  });
   report.merged_corners = seams.weld.welded;
   report.merged_distance = seams.distance;
-  rings = edge_rings(mesh, execution);
 }
 
 /// Refuses a mesh whose largest part is several bodies with common walls. Without the walls it
@@ -227,6 +263,16 @@ void merge_seams(IndexedMesh& mesh, std::vector<std::int32_t>& rings, double dia
 void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
                          const Execution& execution) {
   constexpr double largest_other = 0.05;  // of the volume; flaws of a scan enclose less
+  constexpr std::size_t block = 16384;
+  const std::size_t beyond_two = execution.parallel_sum(
+      rings.size(), block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t h = begin; h < end; ++h) {
+          count += index(rings[index(rings[h])]) == h ? 0 : 1;
+        }
+        return count;
+      });
+  if (beyond_two == 0) return;  // so on nearly all scans
   const Components components = find_components(mesh, rings, execution);
   const std::size_t main = largest_of(components);
   if (components.list[main].non_manifold_edges == 0) return;
@@ -320,29 +366,56 @@ double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
   return diagonal;
 }
 
-/// Merges corners along seams, and refuses bodies with common walls. Returns the rings of edges.
-std::vector<std::int32_t> joined_rings(IndexedMesh& mesh, const MeshCheckOptions& options,
-                                       double diagonal, const Execution& execution,
-                                       MeshCheckReport& report) {
-  std::vector<std::int32_t> rings = edge_rings(mesh, execution);
-  if (options.weld_tolerance > 0.0) merge_seams(mesh, rings, diagonal, execution, report);
-  refuse_common_walls(mesh, rings, execution);
-  return rings;
-}
-
 /// Drops copies of faces, and faces that lie on each other in pairs. Returns what was dropped.
-DuplicateFaces drop_copies(const Execution& execution, IndexedMesh& mesh,
-                           std::vector<std::int32_t>& rings, MeshCheckReport& report) {
-  const DuplicateFaces duplicates = drop_duplicate_faces(mesh, rings);
+DuplicateFaces drop_copies(RingedMesh& ringed, MeshCheckReport& report) {
+  DuplicateFaces duplicates;
+  const std::vector<std::int32_t>& rings = ringed.rings();
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    duplicates = drop_duplicate_faces(mesh, rings);
+    return duplicates.copies + duplicates.folded > 0;
+  });
   report.duplicate_faces = duplicates.copies;
   report.back_to_back_faces = duplicates.folded;
-  if (mesh.triangles.empty()) {
+  if (ringed.mesh().triangles.empty()) {
     refuse(
         "The faces of the mesh lie on each other in pairs, so it encloses no volume. Load the "
         "closed surface of a grain.");
   }
-  if (duplicates.copies + duplicates.folded > 0) rings = edge_rings(mesh, execution);
   return duplicates;
+}
+
+/// Keeps one component and separates its sheets.
+ManifoldRepair separate_sheets_of(RingedMesh& ringed, const Components& components,
+                                  std::size_t kept) {
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    keep_faces(mesh, components, kept);
+    return components.list.size() > 1;
+  });
+  ManifoldRepair repair;
+  const std::vector<std::int32_t>& rings = ringed.rings();
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    repair = separate_sheets(mesh, rings);
+    return true;
+  });
+  return repair;
+}
+
+/// Keeps one component, turned outward, and fills its holes.
+FilledHoles fill_holes_of(RingedMesh& ringed, const Components& components, std::size_t kept,
+                          MeshCheckReport& report) {
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    report.reoriented_faces = keep_component(mesh, components, kept);
+    return components.list.size() > 1 || report.reoriented_faces > 0;
+  });
+  FilledHoles filled;
+  const std::vector<std::int32_t>& rings = ringed.rings();
+  ringed.change_faces([&](IndexedMesh& mesh) {
+    filled = fill_holes(mesh, rings);
+    return true;
+  });
+  report.filled_holes = filled.holes;
+  report.filling_faces = filled.faces;
+  return filled;
 }
 
 }  // namespace
@@ -367,31 +440,30 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.lost_faces = keep_usable_faces(mesh, execution);
   const double diagonal = weld(options.weld_tolerance, execution, mesh, report);
   execution.report(0.25, stage);
-  std::vector<std::int32_t> rings = joined_rings(mesh, options, diagonal, execution, report);
-  const DuplicateFaces duplicates = drop_copies(execution, mesh, rings, report);
+  RingedMesh ringed(std::move(mesh), execution);
+  if (options.weld_tolerance > 0.0) merge_seams(ringed, diagonal, execution, report);
+  refuse_common_walls(ringed.mesh(), ringed.rings(), execution);
+  const DuplicateFaces duplicates = drop_copies(ringed, report);
   execution.report(0.5, stage);
 
   std::vector<OtherComponent> others;
-  Components components = find_components(mesh, rings, execution);
-  std::size_t main = largest_of(components);
-  append_others(mesh, components, main, others);
-  // The repairs below are for the kept part. On a clean scan they only read counts.
-  const auto look_again = [&] {
-    rings = edge_rings(mesh, execution);
-    components = find_components(mesh, rings, execution);
+  Components components;
+  std::size_t main = 0;
+  const auto look = [&] {
+    components = find_components(ringed.mesh(), ringed.rings(), execution);
     main = largest_of(components);
-    append_others(mesh, components, main, others);
+    append_others(ringed.mesh(), components, main, others);
   };
+  look();
+  // The repairs below are for the kept part. On a clean scan they only read counts.
   double flap_area = 0.0;
   if (components.list[main].non_manifold_edges > 0) {
-    keep_faces(mesh, components, main);
-    rings = edge_rings(mesh, execution);
-    const ManifoldRepair repair = separate_sheets(mesh, rings);
+    const ManifoldRepair repair = separate_sheets_of(ringed, components, main);
     report.non_manifold_edges = repair.edges;
     report.flap_faces = repair.dropped_faces;
     report.split_vertices = repair.added_vertices;
     flap_area = repair.dropped_area;
-    look_again();
+    look();
   }
   if (!components.list[main].orientable) {
     refuse(std::string(components.list.size() > 1 ? "The largest part of the mesh" : "The mesh") +
@@ -402,19 +474,19 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;
   if (boundary_edges > 0) {
-    report.reoriented_faces = keep_component(mesh, components, main);
-    const std::size_t faces = mesh.triangles.size();
-    filled = fill_holes(mesh, edge_rings(mesh, execution));
-    report.filled_holes = filled.holes;
-    report.filling_faces = filled.faces;
-    look_again();
+    filled = fill_holes_of(ringed, components, main, report);
+    look();
     // The side of an open surface's volume was a guess.
-    if (components.list[main].volume < 0.0)
-      report.reoriented_faces = faces - report.reoriented_faces;
+    if (components.list[main].volume < 0.0) {
+      report.reoriented_faces =
+          ringed.mesh().triangles.size() - filled.faces - report.reoriented_faces;
+    }
   }
   execution.report(0.75, stage);
-  report.split_vertices += split_touching_vertices(mesh, rings, components.of_face,
-                                                   static_cast<std::int32_t>(main), execution);
+  report.split_vertices +=
+      split_touching_vertices(ringed.with_same_faces(), ringed.rings(), components.of_face,
+                              static_cast<std::int32_t>(main), execution);
+  mesh = ringed.released();
   const std::size_t turned = keep_component(mesh, components, main);
   if (boundary_edges == 0) report.reoriented_faces = turned;
   if (!others.empty()) refuse_loose_faces(mesh, others.size() + 1, execution);
