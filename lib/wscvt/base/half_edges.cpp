@@ -1,43 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/half_edges.h"
 
+#include <algorithm>
+#include <array>
+
 #include "wscvt/base/counting_sort.h"
 
 namespace wscvt {
 
+namespace {
+
+/// A half-edge among those of one lower vertex.
+struct Link {
+  std::int32_t higher;  ///< its other vertex
+  std::int32_t half_edge;
+  bool from_lower;
+
+  bool operator<(const Link& other) const {
+    return higher != other.higher ? higher < other.higher : half_edge < other.half_edge;
+  }
+};
+
+}  // namespace
+
+// A counting sort by the lower vertex leaves about three half-edges in a bucket, so every triangle
+// is read twice for its links. To look for each opposite among the half-edges that leave its origin
+// takes twice the time.
 HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
                           const Execution& execution) {
   const std::size_t count = 3 * triangles.size();
-  const Groups outgoing = counting_sort(
-      count, vertices, [&](std::size_t h, const auto& visit) { visit(triangles[h / 3][h % 3]); });
+  const Groups buckets = counting_sort(count, vertices, [&](std::size_t h, const auto& visit) {
+    const Triangle& t = triangles[h / 3];
+    visit(index(std::min(t[h % 3], t[following(h % 3)])));
+  });
   HalfEdges result;
   result.opposite.assign(count, -1);
   result.first.assign(vertices, -1);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (outgoing.begin(v) != outgoing.end(v)) result.first[v] = *outgoing.begin(v);
+  for (std::size_t h = count; h-- > 0;) {
+    result.first[index(triangles[h / 3][h % 3])] = static_cast<std::int32_t>(h);
   }
-  const auto opposite_of = [&](std::int32_t h) {
-    const std::int32_t from = origin_of(triangles, h);
-    const std::int32_t to = target_of(triangles, h);
-    // The opposite is among the half-edges that leave `to` and among the half-edges that reach
-    // `from`. Search the shorter list, because the hub of a large fan would need quadratic time.
-    std::int32_t found = -1;
-    if (outgoing.size(to) <= outgoing.size(from)) {
-      for (auto other = outgoing.begin(to); other != outgoing.end(to); ++other) {
-        if (target_of(triangles, *other) == from) found = *other;
-      }
-    } else {
-      for (auto next = outgoing.begin(from); next != outgoing.end(from); ++next) {
-        const std::int32_t reaching = previous_half_edge(*next);
-        if (origin_of(triangles, reaching) == to) found = reaching;
-      }
-    }
-    return found;
-  };
   constexpr std::size_t block_size = 16384;
-  execution.parallel_for(count, block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t h = begin; h < end; ++h) {
-      result.opposite[h] = opposite_of(static_cast<std::int32_t>(h));
+  // Each half-edge is in one bucket, so no two blocks write to one entry.
+  execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
+    std::vector<Link> bucket;
+    for (std::size_t v = begin; v < end; ++v) {
+      bucket.clear();
+      for (auto h = buckets.begin(v); h != buckets.end(v); ++h) {
+        const std::int32_t from = origin_of(triangles, *h);
+        const std::int32_t to = target_of(triangles, *h);
+        bucket.push_back({std::max(from, to), *h, from <= to});
+      }
+      std::sort(bucket.begin(), bucket.end());
+      for (auto first = bucket.begin(); first != bucket.end();) {
+        auto last = first;
+        // The highest of each direction; a loop is its own opposite.
+        std::array<std::int32_t, 2> highest = {-1, -1};
+        for (; last != bucket.end() && last->higher == first->higher; ++last) {
+          highest[last->from_lower ? 0 : 1] = last->half_edge;
+        }
+        const bool is_loop = index(first->higher) == v;
+        for (; first != last; ++first) {
+          result.opposite[index(first->half_edge)] = highest[first->from_lower && !is_loop ? 1 : 0];
+        }
+      }
     }
   });
   return result;
