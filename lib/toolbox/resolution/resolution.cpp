@@ -8,10 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "toolbox/resolution/descriptor_orders.h"
+#include "toolbox/resolution/descriptor_biases.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/repair/mesh_check.h"
 
@@ -21,29 +20,27 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t pose_count = 4;
+constexpr std::size_t pose_count = 3;
 
-/// Poses of the coarse grain. Any that no face of a grain follows will do.
+/// Poses of the grain that is voxelised again. Any that no face of a grain follows will do.
 const std::array<VoxelPose, pose_count>& poses() {
   static const std::array<VoxelPose, pose_count> all = {{
       {Eigen::Quaterniond(0.86, 0.11, 0.37, -0.33).normalized(), Vector3(1.13, 1.71, 1.42)},
       {Eigen::Quaterniond(0.29, 0.77, -0.41, 0.38).normalized(), Vector3(1.62, 1.19, 1.87)},
       {Eigen::Quaterniond(-0.35, 0.43, 0.69, 0.47).normalized(), Vector3(1.36, 1.94, 1.08)},
-      {Eigen::Quaterniond(0.52, -0.27, 0.18, 0.79).normalized(), Vector3(1.84, 1.45, 1.66)},
   }};
   return all;
 }
 
 using Rows = std::vector<DescriptorValue>;
 
-/// Returns nothing if the grain is too thin for voxels of twice the size.
-std::optional<Rows> coarse_rows(const IndexedMesh& mesh, const ResolutionOptions& options,
-                                const VoxelPose& pose, const Execution& execution) {
-  const double size = 2.0 * options.voxel_size;
-  const std::vector<VoxelStretch> voxels = mesh_voxels(mesh, size, pose);
+/// Returns nothing if the grain is too thin for its voxels.
+std::optional<Rows> rows_again(const IndexedMesh& mesh, const ResolutionOptions& options,
+                               const VoxelPose& pose, const Execution& execution) {
+  const std::vector<VoxelStretch> voxels = mesh_voxels(mesh, options.voxel_size, pose);
   try {
-    IndexedMesh coarse = surface_of_voxels(voxels, options.smoothing, size);
-    const CheckedMesh checked = check_mesh(std::move(coarse), MeshCheckOptions(), execution);
+    IndexedMesh again = surface_of_voxels(voxels, options.smoothing, options.voxel_size);
+    const CheckedMesh checked = check_mesh(std::move(again), MeshCheckOptions(), execution);
     return list_descriptors(describe_shape_in_detail(checked.mesh, options.details, execution));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
@@ -51,38 +48,30 @@ std::optional<Rows> coarse_rows(const IndexedMesh& mesh, const ResolutionOptions
   }
 }
 
-/// Shares and ratios of S <= I <= L are at most 1.
-double most_of(const std::string& key) {
-  for (const char* word : {"sphericity", "convexity", "aspect_ratio", "zingg", "kong_fonseca",
-                           "roundness", "compactness", "flakiness", "rodness", "orientation"}) {
-    if (key.find(word) != std::string::npos) return 1.0;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 void correct(ResolvedValue& row, double across) {
-  const DescriptorOrder* order = order_of(row.key);
-  if (order == nullptr || across < order->least_across) return;
-  if (!std::isfinite(row.value + row.coarse)) return;
-  const double change = row.value - row.coarse;
-  const double corrected =
-      (1.0 + order->floor) * row.value + change / (portable::pow(2.0, order->order) - 1.0);
-  const double below = order->share * std::abs(change) + order->scatters * row.scatter +
-                       order->rest * std::abs(row.value) / across;
-  const double most = most_of(row.key);
-  const auto possible = [&](double value) { return std::clamp(value, 0.0, most); };
+  const DescriptorBias* bias = bias_of(row.key);
+  if (bias == nullptr || across < bias->least_across) return;
+  if (!std::isfinite(row.value + row.again)) return;
+  constexpr double most_measured = 40.0;
+  const double u = 10.0 / std::min(across, most_measured);
+  const double change = row.value - row.again;
+  const double corrected = (1.0 + bias->floor + bias->floor_u * u) * row.value +
+                           (bias->gain + bias->gain_u * u) * change;
+  const double below = bias->share * std::abs(change) + bias->scatters * row.scatter +
+                       bias->rest * std::abs(row.value) / across;
+  const auto possible = [&](double value) { return std::clamp(value, 0.0, bias->most); };
   row.corrected = possible(corrected);
   row.low = possible(corrected - below);
-  row.high = possible(corrected + order->above * below);
+  row.high = possible(corrected + bias->above * below);
 }
 
 ResolvedValue resolved(const std::string& key, double value, double across,
-                       const std::array<double, pose_count>& coarse) {
+                       const std::array<double, pose_count>& again) {
   ResolvedValue row;
   row.key = key;
   row.value = value;
-  for (const double one : coarse) row.coarse += one / static_cast<double>(pose_count);
-  for (const double one : coarse) row.scatter += (one - row.coarse) * (one - row.coarse);
+  for (const double one : again) row.again += one / static_cast<double>(pose_count);
+  for (const double one : again) row.scatter += (one - row.again) * (one - row.again);
   row.scatter = std::sqrt(row.scatter / static_cast<double>(pose_count - 1));
   row.corrected = row.low = row.high = not_a_number;
   correct(row, across);
@@ -96,10 +85,10 @@ Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors
   if (!(options.voxel_size > 0.0) || !std::isfinite(options.voxel_size)) {
     throw Error(ErrorCode::InvalidInput, "The size of a voxel must be a number above 0.");
   }
-  std::array<std::optional<Rows>, pose_count> coarse;
+  std::array<std::optional<Rows>, pose_count> again;
   for (std::size_t k = 0; k < pose_count; ++k) {
     execution.report(static_cast<double>(k) / pose_count, "Measuring the resolution");
-    coarse[k] = coarse_rows(mesh, options, poses()[k], execution.part(0.0, 0.0));
+    again[k] = rows_again(mesh, options, poses()[k], execution.part(0.0, 0.0));
   }
   Resolution result;
   result.voxel_size = options.voxel_size;
@@ -108,7 +97,7 @@ Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors
   for (std::size_t at = 0; at < rows.size(); ++at) {
     std::array<double, pose_count> values{};
     for (std::size_t k = 0; k < pose_count; ++k) {
-      values[k] = coarse[k] ? (*coarse[k])[at].value : not_a_number;
+      values[k] = again[k] ? (*again[k])[at].value : not_a_number;
     }
     result.rows.push_back(resolved(rows[at].key, rows[at].value, result.voxels_across, values));
   }

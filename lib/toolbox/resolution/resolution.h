@@ -15,12 +15,14 @@ struct ResolutionOptions {
 };
 
 /// Estimates what the voxels did to the descriptors of a grain that was made of the voxels of a
-/// label (label_grains.h). The grain is voxelised anew with voxels of twice the size, in four
-/// poses, and described: a value v(h) and its mean v(2 h). The corrected value is (1 + f) v(h) +
-/// (v(h) - v(2 h)) / (2^p - 1): Richardson's extrapolation with the order p of the descriptor. The
-/// floor f is what is left at any size of the voxels, because smoothing leaves some of their steps.
-/// Orders, floors and the widths of the intervals were measured on other bodies with the default
-/// smoothing (descriptor_orders.h).
+/// label (label_grains.h). The grain is voxelised once more, with voxels of the same size in three
+/// poses, and made and described as the first time: a value v and its mean w. What that takes away,
+/// v - w, tells what the first voxels took away. The corrected value is v + f v + g (v - w). Gain g
+/// and floor f depend on the descriptor and on the voxels across. With g = 1 and f = 0 this would
+/// be the bias correction of a bootstrap (Efron 1979); g is larger, because the grain has already
+/// lost its finest detail, and f is what smoothing does to every grain. Gains, floors and the
+/// widths of the intervals were measured on other bodies with the default smoothing
+/// (descriptor_biases.h).
 ///
 /// `descriptors` are the mesh's, measured with options.details. Throws Error(InvalidInput) for
 /// options out of range or a grain of more than 20,000 voxels across; Error(Cancelled).

@@ -11,8 +11,8 @@ namespace wscvt {
 struct ResolvedValue {
   std::string key;         ///< as in list_descriptors
   double value = 0.0;      ///< of the grain as it is
-  double coarse = 0.0;     ///< mean of the grain with voxels of twice the size
-  double scatter = 0.0;    ///< standard deviation over the poses of the coarse grain
+  double again = 0.0;      ///< mean of the grain voxelised once more
+  double scatter = 0.0;    ///< standard deviation over the poses of the grain voxelised again
   double corrected = 0.0;  ///< without the bias of the voxels; NaN if not resolved
   double low = 0.0;        ///< ends of the interval of 95 %; NaN if not resolved
   double high = 0.0;
@@ -26,5 +26,16 @@ struct Resolution {
   double voxels_across = 0.0;       ///< equivalent diameter over the size of a voxel
   std::vector<ResolvedValue> rows;  ///< one for each of list_descriptors
 };
+
+/// Returns the number of nodes from which on a remesh shows the voxels' noise and no more of the
+/// grain: a node then has a cell of 2 by 2 voxels. Measured by tests/figures/study/voxel_study.py.
+/// `area` of the scan, length^2; `voxel_size` > 0, length.
+inline double resolved_nodes(double area, double voxel_size) {
+  constexpr double side = 2.0;
+  return area / (side * voxel_size * side * voxel_size);
+}
+
+/// Voxels across a grain below which no trend of any descriptor can be trusted.
+inline constexpr double least_trusted_across = 15.0;
 
 }  // namespace wscvt

@@ -119,10 +119,10 @@ std::string rows_of(const Body& body, const DetailedDescriptors& truth, int acro
   for (const DescriptorValue& row : list_descriptors(truth)) true_values[row.key] = row.value;
   std::string text;
   for (const ResolvedValue& row : resolution.rows) {
-    char line[400];
-    std::snprintf(line, sizeof line, "%s,%d,%d,%s,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g\n",
-                  body.name.c_str(), across, pose, row.key.c_str(), true_values[row.key], row.value,
-                  row.coarse, row.scatter, row.corrected, row.low, row.high);
+    char line[300];
+    std::snprintf(line, sizeof line, "%s,%d,%d,%s,%.10g,%.10g,%.10g,%.10g\n", body.name.c_str(),
+                  across, pose, row.key.c_str(), true_values[row.key], row.value, row.again,
+                  row.scatter);
     text += line;
   }
   return text;
@@ -137,7 +137,7 @@ void run(const std::vector<std::string>& files, int grown, int poses, int thread
   for (const std::string& file : files) {
     bodies.push_back({file.substr(file.find_last_of('/') + 1), read_body(file)});
   }
-  std::cout << "body,across,pose,key,truth,value,coarse,scatter,corrected,low,high\n";
+  std::cout << "body,across,pose,key,truth,value,again,scatter\n";
   for (const Body& body : bodies) {
     const DetailedDescriptors truth =
         describe_shape_in_detail(body.mesh, DetailedOptions(), Execution(threads));
