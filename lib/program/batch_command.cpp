@@ -14,6 +14,7 @@
 #include "remesh_arguments.h"
 #include "signals.h"
 #include "simulation_arguments.h"
+#include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
@@ -99,7 +100,11 @@ int run(const BatchArguments& arguments) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs =
       open_inputs(files, arguments.job.volume, arguments.shard, arguments.quiet);
-  const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);
+  RemeshJob options = arguments.job;
+  options.shapes.resolution =
+      describes_scan(options.shapes.described) &&
+      (options.volume.choice.voxel_size || std::any_of(files.begin(), files.end(), is_volume));
+  const GrainJob job = make_job(options, arguments.folder, arguments.shard);
   const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
   print(write_summaries(job), arguments.quiet);

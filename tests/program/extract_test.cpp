@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program on a volume of labels.
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -315,6 +316,45 @@ TEST_F(Extract, MemoryFollowsTheGrainsInWorkNotTheVolume) {
   const long small = peak(100);  // 18 MB
   const long large = peak(500);  // 90 MB
   EXPECT_LT(large, small + 8192);
+}
+
+TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {
+  write_sample();
+  const Outcome outcome = run("batch sample.nrrd -o out -n 1000");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("Voxels across a grain: "), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("resolve fewer nodes than were asked for"), std::string::npos)
+      << outcome.output;
+  auto shapes = rows("out/shape.csv", "grain");
+  ASSERT_EQ(shapes.size(), 3U);
+  auto& ball = shapes["sample.nrrd/3"];
+  const auto number = [&](const std::string& name) { return std::stod(ball.at(name)); };
+  EXPECT_EQ(number("resolution.voxel_size [length]"), 0.5);
+  EXPECT_NEAR(number("resolution.voxels_across"), 24.0, 0.2);  // of a radius of 12 voxels
+  EXPECT_GE(number("resolution.sphericity_wadell.high"), 1.0);
+  EXPECT_LT(number("resolution.area.low [length^2]"), number("resolution.area.high [length^2]"));
+  EXPECT_EQ(ball.at("resolution.sq.corrected [length]"), "");  // not resolved
+  // As the grain alone.
+  EXPECT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
+  EXPECT_EQ(run("describe dense/3.ply -q --voxel-size 0.5 --report ball.csv").exit_code, 0);
+  const auto records = test::csv_records(content("ball.csv"));
+  const auto& names = records[0];
+  const auto place = std::find_if(names.begin(), names.end(), [](const std::string& name) {
+    return name.rfind("resolution.area.corrected", 0) == 0;
+  });
+  ASSERT_NE(place, names.end());
+  const double alone = std::stod(records[1][static_cast<std::size_t>(place - names.begin())]);
+  // Meshes are written with single precision.
+  EXPECT_NEAR(number("resolution.area.corrected [length^2]") / alone, 1.0, 1e-3);
+
+  EXPECT_EQ(run("batch sample.nrrd -o none -n 100 -q --describe remesh").exit_code, 0);
+  EXPECT_EQ(content("none/shape.csv").find("resolution."), std::string::npos);
+  EXPECT_EQ(run("batch dense -o meshes -n 100 -q").exit_code, 0);  // of voxels nobody knows
+  EXPECT_EQ(content("meshes/shape.csv").find("resolution."), std::string::npos);
+  const Outcome given = run("batch dense -o given -n 100 --voxel-size 0.5");
+  EXPECT_NE(given.output.find("Voxels across a grain: "), std::string::npos) << given.output;
+  const Outcome rough = run("batch sample.nrrd -o rough -n 100 --smoothing 3");
+  EXPECT_EQ(rough.output.find("Voxels across"), std::string::npos) << "no biases of this smoothing";
 }
 
 }  // namespace

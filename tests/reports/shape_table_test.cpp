@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "support/flat_json.h"
+#include "wscvt/measures/descriptor_table.h"
 
 namespace wscvt {
 namespace {
@@ -51,6 +53,45 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
               remeshes);
     EXPECT_EQ(shape_header({what, remeshes}).find(",remesh.") != std::string::npos, remeshes);
   }
+}
+
+TEST(ShapeTable, HasWhatTheVoxelsDidIfAskedFor) {
+  const ShapeMeasures measures{Described::Scan, false, true};
+  GrainShape known;
+  known.scan.emplace();
+  Resolution& resolution = known.resolution.emplace();
+  resolution.voxel_size = 0.5;
+  resolution.voxels_across = 21.0;
+  for (const DescriptorValue& row : list_descriptors(*known.scan)) {
+    ResolvedValue value;
+    value.key = row.key;
+    const bool is_area = row.key == "area";
+    value.corrected = is_area ? 7.0 : std::nan("");
+    value.low = is_area ? 6.0 : std::nan("");
+    value.high = is_area ? 9.0 : std::nan("");
+    resolution.rows.push_back(value);
+  }
+  GrainShape unknown;  // a scan whose voxels are not known has the columns too
+  unknown.scan.emplace();
+  unknown.resolution.emplace();
+  const auto records =
+      test::csv_records(shape_header(measures) + shape_row("a", "a.ply", RemeshResult(), known) +
+                        shape_row("b", "b.ply", RemeshResult(), unknown));
+  ASSERT_EQ(records.size(), 3U);
+  std::map<std::string, std::size_t> places;
+  for (std::size_t k = 0; k < records[0].size(); ++k) places[records[0][k]] = k;
+  ASSERT_EQ(records[1].size(), records[0].size());
+  ASSERT_EQ(records[2].size(), records[0].size());
+  const std::map<std::string, std::string> expected = {
+      {"resolution.voxel_size [length]", "0.5"},     {"resolution.voxels_across", "21"},
+      {"resolution.area.corrected [length^2]", "7"}, {"resolution.area.low [length^2]", "6"},
+      {"resolution.area.high [length^2]", "9"},      {"resolution.convexity.corrected", ""}};
+  for (const auto& [name, value] : expected) {
+    ASSERT_EQ(places.count(name), 1U) << name;
+    EXPECT_EQ(records[1][places[name]], value) << name;
+    EXPECT_EQ(records[2][places[name]], "") << name;
+  }
+  EXPECT_EQ(shape_header({Described::Remesh, false, true}).find("resolution."), std::string::npos);
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct GrainScan {
   IndexedMesh mesh;
   MeshAttributes attributes = {};          ///< of a file; empty for a body or a label
   std::vector<std::string> warnings = {};  ///< about reading it
+  double voxel_size = 0.0;                 ///< edge of its cubic voxels, length; 0: not known
 };
 
 /// Grains in a fixed order, each with a name of its own.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/job/remesh_job.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -10,6 +11,9 @@
 #include "toolbox/exchange/simulation_files.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
+#include "toolbox/report/voxel_lines.h"
+#include "toolbox/resolution/resolution.h"
+#include "toolbox/sample/grain_table.h"
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
@@ -57,6 +61,7 @@ std::string call_text(const RemeshJob& job) {
                {"levels", job.levels},
                {"describe", key_of(job.shapes.described)},
                {"contacts", job.shapes.contacts},
+               {"resolution", job.shapes.resolution},
                {"volume", volume_json(job.volume)},
                {"options", json_of(job.remesh)}};
   if (is_for_simulation(job)) {
@@ -83,12 +88,28 @@ std::string mass_csv(const std::string& file, const MassProperties& mass) {
 struct MeasuredScan {
   std::optional<DetailedDescriptors> shape;
   std::optional<ScanContacts> contacts;
+  std::optional<Resolution> resolution;
 };
+
+/// Returns what the voxels did; without rows if their size is not known, or if the orders of the
+/// descriptors are not those of this smoothing.
+Resolution resolution_of(const RemeshJob& job, double voxel_size, const IndexedMesh& scan,
+                         const DetailedDescriptors& descriptors, const Execution& execution) {
+  const std::optional<Vector3>& given = job.volume.choice.voxel_size;
+  if (voxel_size == 0.0 && given && given->minCoeff() == given->maxCoeff()) {
+    voxel_size = (*given)[0];
+  }
+  ResolutionOptions options;
+  if (voxel_size == 0.0 || job.volume.smoothing != options.smoothing) return {};
+  options.voxel_size = voxel_size;
+  return measure_resolution(scan, descriptors, options, execution);
+}
 
 /// Returns the measures of a level. A failed measurement becomes a warning of the remesh, and its
 /// message is written to `error`.
-GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, MeasuredScan& scan,
-                         std::string& error, const Execution& execution) {
+GrainShape measure_level(const RemeshJob& job, double voxel_size, RemeshResult& result,
+                         MeasuredScan& scan, std::string& error, const Execution& execution) {
+  const ShapeMeasures& measures = job.shapes;
   const Described what = measures.described;
   const bool needs_scan = describes_scan(what) && !scan.shape;
   const Described now = needs_scan               ? what
@@ -99,6 +120,13 @@ GrainShape measure_level(const ShapeMeasures& measures, RemeshResult& result, Me
     shape = describe_result(result, now, execution);
     if (needs_scan) scan.shape = std::move(shape.scan);
     shape.scan = scan.shape;
+    if (measures.resolution && scan.shape) {
+      if (!scan.resolution) {
+        scan.resolution =
+            resolution_of(job, voxel_size, result.repaired_scan, *scan.shape, execution);
+      }
+      shape.resolution = scan.resolution;
+    }
     if (measures.contacts) {
       if (!scan.contacts) scan.contacts.emplace(result.repaired_scan, result.scan, execution);
       shape.contacts = scan.contacts->error_of(result.mesh, execution);
@@ -129,7 +157,8 @@ class GrainRemesh {
       GrainShape shape;
       const bool describes = job_.shapes.described != Described::None;
       if (describes) {
-        shape = measure_level(job_.shapes, result, measured_, error, grain_.execution);
+        shape =
+            measure_level(job_, grain_.scan.voxel_size, result, measured_, error, grain_.execution);
       }
       // Only the first result has it.
       if (level > 0) result.repaired_scan = std::move(results[level - 1].repaired_scan);
@@ -264,6 +293,13 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
     }
     for (const std::string& line : summary_lines(summary)) lines.push_back(line);
   }
+  const std::string shapes = folders_of(job).back().file("shape", ".csv");  // the most nodes
+  const bool has_voxels =
+      std::any_of(job.tables.begin(), job.tables.end(), [](const JobTable& one) {
+        return one.name == "shape" && one.header.find("resolution.") != std::string::npos;
+      });
+  if (!has_voxels) return lines;
+  for (const std::string& line : voxel_lines(read_grain_table(shapes))) lines.push_back(line);
   return lines;
 }
 

@@ -21,7 +21,9 @@ struct RemeshJob {
   ShapeMeasures shapes;        ///< of shape.csv
   std::string format = "ply";  ///< ending of the meshes
   bool seconds = false;        ///< grains.csv has a column with the run time of each grain
-  VolumeOptions volume;        ///< of inputs that are volumes
+  /// Of inputs that are volumes. choice.voxel_size, if it is a cube, is also that of the scans that
+  /// are meshes.
+  VolumeOptions volume;
 
   /// Frame and size of the meshes and of the files below.
   SimulationOptions simulation;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/report/shape_table.h"
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,23 @@ void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors
   append_quality(mesh, quality, values);
 }
 
+void append_resolution(const Resolution& resolution, std::vector<ShapeValue>& values) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  const bool is_known = !resolution.rows.empty();
+  values.push_back(
+      {{"resolution.voxel_size", "length"}, is_known ? resolution.voxel_size : missing});
+  values.push_back(
+      {{"resolution.voxels_across", ""}, is_known ? resolution.voxels_across : missing});
+  const std::vector<DescriptorValue> names = list_descriptors(DetailedDescriptors());
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const ResolvedValue* row = is_known ? &resolution.rows[k] : nullptr;
+    const std::string name = "resolution." + names[k].key;
+    values.push_back({{name + ".corrected", names[k].unit}, row ? row->corrected : missing});
+    values.push_back({{name + ".low", names[k].unit}, row ? row->low : missing});
+    values.push_back({{name + ".high", names[k].unit}, row ? row->high : missing});
+  }
+}
+
 /// Visits the numbers of a row, in the order of the columns.
 std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& shape) {
   std::vector<ShapeValue> values = {{{"nodes", ""}, static_cast<double>(result.mesh.points.size())},
@@ -68,6 +86,7 @@ std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& 
                       input.flap_area_fraction + input.filled_area_fraction});
     values.push_back({{"scan.voxel_steps", ""}, input.has_voxel_steps ? 1.0 : 0.0});
   }
+  if (shape.resolution) append_resolution(*shape.resolution, values);
   if (shape.remesh) append_mesh("remesh.", *shape.remesh, result.quality, values);
   return values;
 }
@@ -77,6 +96,7 @@ std::vector<std::string> columns_of(const ShapeMeasures& measures) {
   if (describes_scan(measures.described)) shape.scan.emplace();
   if (describes_remesh(measures.described)) shape.remesh.emplace();
   if (measures.contacts) shape.contacts.emplace();
+  if (measures.resolution && shape.scan) shape.resolution.emplace();
   std::vector<std::string> names = {"grain", "status", "error", "file"};
   for (const ShapeValue& one : values_of(RemeshResult(), shape)) {
     names.push_back(heading_of(one.column));

@@ -7,6 +7,7 @@
 #include "toolbox/clump/first_contact.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/remesh/remesh_result.h"
 
 namespace wscvt {
@@ -37,6 +38,8 @@ inline bool describes_remesh(Described what) {
 struct ShapeMeasures {
   Described described = Described::Both;
   bool contacts = false;  ///< first contact of the remesh against the scan's, see ScanContacts
+  /// What the voxels did to the scan's descriptors; only if scans are described.
+  bool resolution = false;
 };
 
 /// The measures of a grain, empty if not requested.
@@ -44,6 +47,7 @@ struct GrainShape {
   std::optional<DetailedDescriptors> scan;
   std::optional<DetailedDescriptors> remesh;
   std::optional<ContactError> contacts;
+  std::optional<Resolution> resolution;  ///< of the scan; without rows if its voxels are not known
 };
 
 // The table of shapes of a sample: CSV (RFC 4180) with one row per grain, for read_grain_table. Its
@@ -52,7 +56,9 @@ struct GrainShape {
 // "contact_error_mean [%]" and "contact_error_scatter [%]" of the equivalent radius, see
 // ContactError. Then, with the prefix "scan." or "remesh." for each described mesh: the keys of
 // list_descriptors, the principal frame (centroid, principal moments at unit density, unit
-// quaternion) and the quality of the mesh.
+// quaternion) and the quality of the mesh. If the size of the scans' voxels is known, also
+// "resolution.voxel_size [length]", "resolution.voxels_across", and for each descriptor KEY of the
+// scan "resolution.KEY.corrected", ".low" and ".high", empty if it is not resolved.
 
 /// Returns the first record.
 std::string shape_header(const ShapeMeasures& measures);
