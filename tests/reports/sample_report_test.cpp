@@ -18,6 +18,7 @@
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
+#include "toolbox/report/voxel_lines.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -66,6 +67,90 @@ Document data_of(const std::string& page) {
   const std::string begin = "id=\"data\">";
   const std::size_t from = page.find(begin) + begin.size();
   return Document::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+/// 40 grains of 8 to 47 voxels across, whose sphericity only the voxels make depend on the size.
+GrainTable scanned_table() {
+  constexpr Eigen::Index grains = 40;
+  GrainTable table;
+  table.columns = {{"scan.volume", "mm^3"},
+                   {"scan.axis_i_box", "mm"},
+                   {"scan.area", "mm^2"},
+                   {"scan.sphericity_wadell", ""},
+                   {"resolution.voxel_size", "mm"},
+                   {"resolution.voxels_across", ""},
+                   {"resolution.area.corrected", ""},
+                   {"resolution.sphericity_wadell.corrected", ""},
+                   {"nodes", ""}};
+  table.values.resize(grains, 9);
+  for (Eigen::Index k = 0; k < grains; ++k) {
+    const double across = 8.0 + static_cast<double>(k);
+    const double true_value = 0.8 + 0.01 * std::sin(5.0 * across);
+    const double size = 0.1 * across;
+    const double area = 3.0 * size * size;
+    table.values.row(k) << size * size * size, size, 0.95 * area, true_value + 1.0 / across, 0.1,
+        across, area, true_value, 300.0;
+    table.grains.push_back("grain " + std::to_string(k));
+  }
+  table.values(0, 7) = std::nan("");  // not resolved
+  return table;
+}
+
+TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
+  SampleReport report;
+  report.options.repetitions = 0;
+  SampleTables tables;
+  tables.tables.push_back(scanned_table());
+  add_sample(report, "sand", tables, {}, 1.0, Execution(1));
+  const ReportedSample& one = report.samples.front();
+  ASSERT_EQ(one.trends.size(), 1U);  // lengths and areas grow with the size anyway
+  const VoxelTrend& trend = one.trends.front();
+  EXPECT_EQ(trend.name, "sphericity_wadell");
+  EXPECT_EQ(trend.count, 39U);
+  EXPECT_EQ(trend.trusted_count, 33U);  // 15 to 47 voxels
+  EXPECT_LT(trend.raw.upper, -0.5);
+  EXPECT_LT(std::abs(trend.corrected.value), 0.3);
+  EXPECT_LT(std::abs(trend.trusted.value), 0.3);
+  // Fifths of eight grains: 8 to 15 voxels, then 16 and more.
+  ASSERT_EQ(one.sample.notes.size(), 1U);
+  EXPECT_EQ(one.sample.notes[0].rfind("8 grains of size 0.8 to 1.5 mm have 11.5 voxels across", 0),
+            0U)
+      << one.sample.notes[0];
+  std::string text;
+  for (const std::string& line : sample_lines(report)) {
+    EXPECT_LE(line.size(), 80U) << line;
+    text += line + "\n";
+  }
+  EXPECT_NE(text.find("correlation with size"), std::string::npos) << text;
+  const Document json = Document::parse(sample_json(report));
+  const Document& told = json["samples"][0]["trends_with_voxels"]["sphericity_wadell"];
+  EXPECT_EQ(told["raw"]["value"].get<double>(), trend.raw.value);
+  EXPECT_EQ(told["trusted_grains"].get<std::size_t>(), 33U);
+  EXPECT_NE(sample_csv(report).find("size_correlation_trusted"), std::string::npos);
+  const Document data = data_of(sample_html(report, Execution(1)));
+  EXPECT_EQ(data["leastAcross"].get<double>(), 15.0);
+  EXPECT_EQ(data["samples"][0]["resolved"], Document({"area", "sphericity_wadell"}));
+  EXPECT_EQ(data["samples"][0]["across"].size(), 40U);
+  EXPECT_EQ(data["samples"][0]["corrected"][0][0].get<double>(), 1.92);
+  EXPECT_TRUE(data["samples"][0]["corrected"][1][0].is_null());
+  // Remeshes are another matter, and so is a table without voxels.
+  EXPECT_TRUE(report_of(40, false).samples.front().trends.empty());
+}
+
+TEST(VoxelLines, TellErrorsAndTooManyNodes) {
+  GrainTable table = scanned_table();
+  const std::vector<std::string> lines = voxel_lines(table);
+  ASSERT_EQ(lines.size(), 2U);
+  // Hazen's quantiles of 8, 9, ..., 47; the area is .95 of the corrected one.
+  EXPECT_NE(lines[0].find("11.5, 27.5, 43.5 (10, 50, 90 %)"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("area -5"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[0].find("sphericity of 1 of 40 grains"), std::string::npos) << lines[0];
+  // A node of each 2 by 2 voxels: .95 * 3 / 4 across^2 < 300 below 20.5 voxels.
+  EXPECT_NE(lines[1].find("13 of 40 grains"), std::string::npos) << lines[1];
+  table.values.col(8).setConstant(40.0);
+  EXPECT_EQ(voxel_lines(table).size(), 1U);
+  table.values.col(5).setConstant(std::nan(""));
+  EXPECT_TRUE(voxel_lines(table).empty());
 }
 
 TEST(SampleReport, LinesFitATerminalAndNameTheSize) {

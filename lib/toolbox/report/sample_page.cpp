@@ -11,6 +11,7 @@
 #include "toolbox/report/sample_report.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
@@ -134,13 +135,27 @@ std::string sample_data(const ReportedSample& one, std::size_t samples,
     if (k > 0) values += ',';
     values += short_list(sample.values.col(static_cast<Eigen::Index>(k)), rows);
   }
+  Json resolved = Json::array();  // the columns with corrected values, in this order
+  std::string corrected = "[";
+  for (Eigen::Index k = 0; k < sample.corrected.cols(); ++k) {
+    const std::string& name = sample.columns[static_cast<std::size_t>(k)].name;
+    if (!sample.corrected.col(k).array().isFinite().any()) continue;
+    if (!resolved.empty()) corrected += ',';
+    resolved.push_back(name);
+    corrected += short_list(sample.corrected.col(k), rows);
+  }
   const Json head = {{"name", one.name},
+                     {"resolved", resolved},
                      {"count", sample.grains.size()},
                      {"sizeName", size_name(sample)},
                      {"columns", columns},
                      {"grains", grains}};
   std::string text = in_page(head);
   text.pop_back();
+  if (!resolved.empty()) {
+    text += ",\"across\":" + short_list(sample.voxels_across, rows) +
+            ",\"corrected\":" + corrected + "]";
+  }
   return text + ",\"size\":" + short_list(sample.sizes, rows) +
          ",\"mass\":" + short_list(sample.masses, rows) + ",\"values\":" + values +
          "],\"thumbs\":" + thumbnails(one, rows, most_thumbnails / samples, execution) + "}";
@@ -181,6 +196,7 @@ std::string data_of(const SampleReport& report, const Execution& execution) {
     text += sample_data(one, report.samples.size(), execution);
   }
   text += "],\"needed\":" + in_page(needed_of(report.samples.front().statistics));
+  text += ",\"leastAcross\":" + format_number(least_trusted_across, 3);
   return text + ",\"levels\":" + (report.levels ? in_page(levels_of(*report.levels)) : "null") +
          "}";
 }
@@ -272,6 +288,18 @@ std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
   return rows;
 }
 
+std::vector<std::vector<std::string>> trends_table(const ReportedSample& one) {
+  std::vector<std::vector<std::string>> rows = {
+      {"correlation with size", "grains resolved", "raw", "corrected",
+       "grains from " + format_number(least_trusted_across, 3) + " voxels", "corrected"}};
+  for (const VoxelTrend& trend : one.trends) {
+    rows.push_back({trend.name, std::to_string(trend.count), with_interval(trend.raw),
+                    with_interval(trend.corrected), std::to_string(trend.trusted_count),
+                    with_interval(trend.trusted)});
+  }
+  return rows;
+}
+
 void add_place(HtmlDocument& page, const std::string& id) {
   page.add_html("<p id=\"" + id + "-choice\"></p>\n<div class=\"figures\" id=\"" + id +
                 "\"></div>\n");
@@ -326,6 +354,18 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
   add_place(page, "forms");
   page.add_heading("Descriptors");
   add_place(page, "distributions");
+  if (!report.samples.front().trends.empty()) {
+    page.add_heading("Voxels");
+    page.add_paragraph(
+        "Few voxels across a grain hide its edges and its roughness, so that a trend with size may "
+        "be a trend of the voxels. It is one of the grains if it stays when the values are "
+        "corrected, and when the grains with few voxels are left out.");
+    add_place(page, "voxels");
+    for (const ReportedSample& one : report.samples) {
+      if (report.samples.size() > 1) page.add_paragraph(one.name + ":");
+      if (!one.trends.empty()) page.add_rows(trends_table(one));
+    }
+  }
   if (report.levels) {
     page.add_heading("Errors of the remeshes against the number of nodes");
     page.add_paragraph(

@@ -324,6 +324,34 @@ function againstSize(name) {
   });
   return {svg: svgOf(body + names(data.samples)), rows: rows};
 }
+function againstVoxels(sample, name) {
+  const raw = values(sample, name) || [];
+  const corrected = sample.corrected[sample.resolved.indexOf(name)] || [];
+  const [low, high] = range([sample.across, [data.leastAcross]]);
+  const [from, to] = range([raw, corrected]);
+  const beyond = (high / low) ** 0.03, above = 0.03 * (to - from);
+  const a = axes({low: low / beyond, high: high * beyond, log: true, label: "voxels across"},
+                 {low: from - above, high: to + above, label: name});
+  const limit = a.px(data.leastAcross);
+  const words = (x, place, text_) => text(x, top_ + 14, text_, `text-anchor="${place}" fill="#333"`);
+  let body = `<rect x="${at(limit)}" y="${top_}" width="${at(width - right - limit)}" ` +
+      `height="${height - bottom - top_}" fill="#e8f3e8"/>` + a.body +
+      line(limit, top_, limit, height - bottom, "#333", 'stroke-dasharray="4 3"') +
+      words(limit + 5, "start", "from " + data.leastAcross + " voxels");
+  const rows = [["grain", "voxels_across", "raw", "corrected"]];
+  const step = Math.max(1, Math.floor(raw.length / 2000));
+  const radius = raw.length < 200 ? 3 : 1.6;
+  sample.across.forEach((voxels, k) => {
+    if (!found(voxels)) return;
+    rows.push([sample.grains[k], voxels, raw[k], corrected[k]]);
+    if (k % step !== 0) return;
+    const mark = (v, more) => found(v) ? `<circle cx="${at(a.px(voxels))}" cy="${at(a.py(v))}" ` +
+        `r="${radius}" ${more}/>` : "";
+    body += mark(raw[k], 'fill="none" stroke="#888"');
+    body += mark(corrected[k], `fill="${colours[0]}" fill-opacity="0.6"`);
+  });
+  return {svg: svgOf(body), rows: rows};
+}
 function errors(name) {
   const levels = data.levels;
   const row = levels.rows.find(one => one.name === name);
@@ -402,6 +430,18 @@ choice("distributions-choice", "Weight of a grain", weightings, shownWeighting, 
   shownWeighting = value;
   distributions.forEach(redraw => redraw());
 });
+const scanned = data.samples.filter(sample => sample.resolved.length > 0);
+if (scanned.length > 0) {
+  const main = ["sphericity_wadell", "convexity", "roundness_wadell", "aspect_ratio_inertia"];
+  const names_ = scanned[0].resolved;
+  const caption = "against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
+  for (const name of main.filter(one => names_.includes(one))) {
+    for (const sample of scanned) {
+      figure("voxels", "voxels_" + name, sample.name + ": " + name + " " + caption,
+             () => againstVoxels(sample, name));
+    }
+  }
+}
 if (data.levels) {
   let shownLevel = data.levels.rows[0].name;
   const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark.";

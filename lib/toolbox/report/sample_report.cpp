@@ -9,6 +9,7 @@
 
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
 
@@ -112,6 +113,14 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
                     short_number(column.by_mass.mean.value)});
   }
   if (rows.size() > 1) append(lines, aligned_lines(rows));
+  rows = {{"correlation with size", "resolved", "raw", "corrected",
+           "from " + short_number(least_trusted_across) + " voxels"}};
+  for (const VoxelTrend& trend : one.trends) {
+    if (!is_main(trend.name)) continue;
+    rows.push_back({trend.name, std::to_string(trend.count), short_number(trend.raw.value),
+                    short_number(trend.corrected.value), short_number(trend.trusted.value)});
+  }
+  if (rows.size() > 1) append(lines, aligned_lines(rows));
 }
 
 std::vector<std::vector<std::string>> comparison_rows(const SampleReport& report, bool all) {
@@ -187,7 +196,16 @@ Json json_of(const ReportedSample& one) {
                                    {"by_mass", json_of(column.by_mass)},
                                    {"size_correlation", json_of(column.size_correlation)}};
   }
+  Json trends = Json::object();
+  for (const VoxelTrend& trend : one.trends) {
+    trends[trend.name] = {{"grains", trend.count},
+                          {"raw", json_of(trend.raw)},
+                          {"corrected", json_of(trend.corrected)},
+                          {"trusted_grains", trend.trusted_count},
+                          {"trusted", json_of(trend.trusted)}};
+  }
   return {{"name", one.name},
+          {"trends_with_voxels", trends},
           {"grains", one.sample.grains.size()},
           {"failed", one.sample.failed},
           {"notes", one.sample.notes},
@@ -246,6 +264,7 @@ void add_sample(SampleReport& report, const std::string& name, const SampleTable
   }
   one.sample = sample_of(sample.tables[shown], options);
   one.statistics = measure_sample(one.sample, options, execution);
+  one.trends = voxel_trends(one.sample);
   if (number == 0 && sample.tables.size() > 1) {
     DetailLevels levels = measure_levels(sample.tables, mark_percent);
     if (!levels.rows.empty()) report.levels = std::move(levels);
@@ -316,6 +335,11 @@ std::string sample_csv(const SampleReport& report) {
         });
       }
       add({column.column.name, ""}, "number", "size_correlation", column.size_correlation);
+    }
+    for (const VoxelTrend& trend : one.trends) {
+      add({trend.name, ""}, "number", "size_correlation_resolved", trend.raw);
+      add({trend.name, ""}, "number", "size_correlation_corrected", trend.corrected);
+      add({trend.name, ""}, "number", "size_correlation_trusted", trend.trusted);
     }
   }
   if (report.levels) append_levels(report.samples.front().name, *report.levels, text);

@@ -9,6 +9,7 @@
 #include "toolbox/sample/sample_comparison.h"
 #include "toolbox/sample/sample_files.h"
 #include "toolbox/sample/sample_statistics.h"
+#include "toolbox/sample/voxel_trends.h"
 #include "wscvt/base/execution.h"
 
 namespace wscvt {
@@ -19,6 +20,7 @@ struct ReportedSample {
   std::string folder;  ///< of the grains' mesh files; empty: no thumbnails
   GrainSample sample;
   SampleStatistics statistics;
+  std::vector<VoxelTrend> trends;  ///< empty if the size of the voxels is not known
 };
 
 /// Statistics of one sample, or of two samples with their comparison.
@@ -49,7 +51,8 @@ std::string sample_json(const SampleReport& report);
 
 /// Returns all statistics as CSV (RFC 4180), a row per statistic: sample, descriptor, unit,
 /// weighting, statistic, value, lower, upper. The last rows are the errors at each number of nodes:
-/// error_median_n100, error_percent_90_n100 and nodes_needed.
+/// error_median_n100, error_percent_90_n100 and nodes_needed. With the size of voxels, there are
+/// the correlations with size of the resolved, the corrected and the trusted values (VoxelTrend).
 std::string sample_csv(const SampleReport& report);
 
 /// Returns an HTML report for reading and printing, one file without references to other files:

@@ -6,11 +6,15 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/pi.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/readable_text.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/voxel_resolution.h"
 
 namespace wscvt {
 
@@ -153,6 +157,57 @@ MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSam
   return [all = sample.density](Eigen::Index, double volume) { return all * volume; };
 }
 
+/// Fills the sample's resolution from the rows `kept` of a table that has it.
+void add_resolution(const GrainTable& table, const std::vector<Eigen::Index>& kept,
+                    GrainSample& sample) {
+  const auto across = table.find("resolution.voxels_across");
+  if (!across) return;
+  const auto rows = static_cast<Eigen::Index>(kept.size());
+  const auto read = [&](std::size_t column, Eigen::Index row) {
+    return table.values(kept[static_cast<std::size_t>(row)], static_cast<Eigen::Index>(column));
+  };
+  sample.voxels_across.resize(rows);
+  for (Eigen::Index row = 0; row < rows; ++row) sample.voxels_across[row] = read(*across, row);
+  sample.corrected.setConstant(rows, sample.values.cols(),
+                               std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
+    const auto column = table.find("resolution." + sample.columns[k].name + ".corrected");
+    if (!column) continue;
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      sample.corrected(row, static_cast<Eigen::Index>(k)) = read(*column, row);
+    }
+  }
+}
+
+/// Notes the classes of size, fifths of the grains, of which half the grains have too few voxels.
+void note_few_voxels(GrainSample& sample) {
+  std::vector<std::pair<double, double>> known;  // size, voxels across
+  for (Eigen::Index k = 0; k < sample.voxels_across.size(); ++k) {
+    if (std::isfinite(sample.voxels_across[k])) {
+      known.emplace_back(sample.sizes[k], sample.voxels_across[k]);
+    }
+  }
+  std::sort(known.begin(), known.end());
+  constexpr std::size_t most_classes = 5;
+  const std::size_t classes = std::min(most_classes, known.size());
+  for (std::size_t k = 0; k < classes; ++k) {
+    const std::size_t begin = k * known.size() / classes;
+    const std::size_t end = (k + 1) * known.size() / classes;
+    std::vector<double> across;
+    for (std::size_t at = begin; at < end; ++at) across.push_back(known[at].second);
+    std::sort(across.begin(), across.end());
+    const double median = quantile(across, 0.5);
+    if (!(median < least_trusted_across)) continue;
+    const std::string unit = sample.size_unit.empty() ? "" : " " + sample.size_unit;
+    sample.notes.push_back(
+        counted(end - begin, "of size ") + format_number(known[begin].first, 3) + " to " +
+        format_number(known[end - 1].first, 3) + unit + " have " + format_number(median, 3) +
+        " voxels across (median). Below " + format_number(least_trusted_across, 3) +
+        " a trend with size may be a trend of the voxels. Leave out these grains, or scan them "
+        "with smaller voxels.");
+  }
+}
+
 }  // namespace
 
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
@@ -211,6 +266,11 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     const double size = is_from_volume ? cbrt(6.0 / pi * read) : read;
     sample.sizes[row] = size;
     sample.masses[row] = mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+  }
+  // The columns are the scans' own.
+  if (table.find("scan." + sample.columns[*size_place].name) == places[*size_place]) {
+    add_resolution(table, kept, sample);
+    note_few_voxels(sample);
   }
   return sample;
 }

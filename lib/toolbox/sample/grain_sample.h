@@ -76,8 +76,12 @@ struct GrainSample {
   double density = 1.0;              ///< of all grains; NaN if the table has masses or densities
   std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing
-  std::size_t failed = 0;            ///< of the table
-  std::vector<std::string> notes;    ///< for people: grains left out, masses from sizes
+  /// Of each scan, NaN: not known; empty if the table has no resolution.
+  Eigen::VectorXd voxels_across;
+  /// The values without the voxels' error, as `values`; NaN: not resolved. Empty as voxels_across.
+  Eigen::MatrixXd corrected;
+  std::size_t failed = 0;          ///< of the table
+  std::vector<std::string> notes;  ///< for people: grains left out, masses from sizes
 };
 
 /// Chooses a sample's columns from a table: the columns "scan." or "remesh." by options.of if there
@@ -85,7 +89,9 @@ struct GrainSample {
 /// size are left out, with a note. A mass is the density times the volume, or times pi / 6 size^3
 /// if the table has no column "volume". Without options.density, masses come from the table's
 /// column "mass", or densities from its column "density". Throws Error(InvalidInput) for options
-/// out of range, if the table has no column for the size, and if fewer than two grains remain.
+/// out of range, if the table has no column for the size, and if fewer than two grains remain. Of
+/// scans with the columns of a resolution (shape_table.h), a note names the classes of size whose
+/// grains have too few voxels across.
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options);
 
 }  // namespace wscvt
