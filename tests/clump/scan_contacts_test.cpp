@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,45 @@ TEST(ScanContacts, OfTheScanItselfHaveNoError) {
   const ContactError error = contacts.error_of(scan, Execution(1));
   EXPECT_EQ(error.mean, 0.0);
   EXPECT_EQ(error.scatter, 0.0);
+}
+
+TEST(ScanContacts, PlacesAndNormalsOfTheScanItselfHaveNoError) {
+  const IndexedMesh scan = grain(1.0);
+  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
+  const ScanContacts::Errors same = contacts.errors_of(scan, Execution(3));
+  for (const TouchErrors& errors : {same.two_sided, same.one_sided}) {
+    EXPECT_EQ(errors.gap.percent_90, 0.0);
+    EXPECT_EQ(errors.place.percent_90, 0.0);
+    EXPECT_LT(errors.normal.percent_90, 1e-5);  // acos of a rounded 1
+  }
+  const ScanContacts::Errors smaller = contacts.errors_of(grain(0.98), Execution(1));
+  // Half of the distance that two of them lose; both move the place by 2 % of a half-axis, 1.2 to 2
+  // over the radius, and by pixels; normals of similar bodies are equal but for the pixels.
+  EXPECT_NEAR(smaller.one_sided.gap.median / smaller.two_sided.gap.median, 0.5, 0.05);
+  EXPECT_NEAR(smaller.two_sided.gap.median, -smaller.distance.mean, 0.3);
+  EXPECT_GT(smaller.two_sided.place.median, 1.0);
+  EXPECT_LT(smaller.two_sided.place.median, 6.0);
+  EXPECT_LT(smaller.two_sided.normal.median, 3.0);
+}
+
+/// Two balls touch on the line through their centres, with the normal along it. The lower one may
+/// lie off its origin, and then the normal leans.
+TEST(FirstTouch, OfBallsLeansAsTheirCentresDo) {
+  const double radius = 0.5;
+  const Execution one(1);
+  const ContactHeights centred({{Vector3::Zero(), radius}}, 1.2, one);
+  const ContactHeights off({{Vector3(0.3, 0.0, 0.0), radius}}, 1.2, one);
+  std::size_t leaning = 0;
+  for (const FirstTouch& touch : off.touches(centred, one)) {
+    ASSERT_TRUE(touch.touches);
+    // The upper centre is above the lower origin; the place is in the middle of the two centres.
+    const Vector3 upper(0.0, 0.0, touch.distance);
+    const Vector3 lower = 2.0 * touch.place - upper;
+    EXPECT_NEAR(lower.norm(), 0.3, 0.03);  // a pixel is 0.01
+    EXPECT_LT(std::acos(std::min(1.0, touch.normal.dot((upper - lower).normalized()))), 0.03);
+    if (touch.normal.z() < 0.99) ++leaning;
+  }
+  EXPECT_GT(leaning, 300U);
 }
 
 /// Bodies that are smaller by 2 % touch at 2 % less of the distance, which lies between twice the

@@ -23,7 +23,9 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
     GrainShape shape;
     if (scans) shape.scan.emplace().convexity = 0.25;
     if (remeshes) shape.remesh.emplace().convexity = 0.75;
-    if (remeshes) shape.contacts = ContactError{-0.5, 1.5};
+    if (remeshes)
+      shape.contacts = ScanContacts::Errors{
+          {-0.5, 1.5}, {{0.1, 0.2}, {0.3, 0.4}, {5.0, 6.0}}, {{0.5, 0.6}, {0.7, 0.8}, {7.0, 8.0}}};
     RemeshResult result;
     result.mesh.points.resize(7);
     result.rms_distance = 0.125;
@@ -36,13 +38,18 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
     EXPECT_EQ(records[1].size(), names.size());
     EXPECT_EQ(records[2].size(), names.size());
     EXPECT_EQ(records[2][2], "It is broken.");
-    const std::map<std::string, std::string> expected = {{"file", "a, b.stl"},
-                                                         {"nodes", "7"},
-                                                         {"rms_distance [length]", "0.125"},
-                                                         {"contact_error_mean [%]", "-0.5"},
-                                                         {"contact_error_scatter [%]", "1.5"},
-                                                         {"scan.convexity", "0.25"},
-                                                         {"remesh.convexity", "0.75"}};
+    const std::map<std::string, std::string> expected = {
+        {"file", "a, b.stl"},
+        {"nodes", "7"},
+        {"rms_distance [length]", "0.125"},
+        {"contact_error_mean [%]", "-0.5"},
+        {"contact_error_scatter [%]", "1.5"},
+        {"contact_gap_median [%]", "0.1"},
+        {"contact_place_90 [%]", "0.4"},
+        {"contact_normal_90 [degrees]", "6"},
+        {"contact_normal_median_one_sided [degrees]", "7"},
+        {"scan.convexity", "0.25"},
+        {"remesh.convexity", "0.75"}};
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto known = expected.find(names[k]);
       if (known == expected.end()) continue;

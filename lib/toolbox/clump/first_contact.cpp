@@ -108,7 +108,8 @@ class HeightMap {
 
 }  // namespace
 
-ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution) {
+ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution)
+    : reach_(reach) {
   const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
   maps_.resize(turns.size());
   execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -126,7 +127,8 @@ ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Exec
 }
 
 ContactHeights::ContactHeights(const std::vector<Sphere>& spheres, double reach,
-                               const Execution& execution) {
+                               const Execution& execution)
+    : reach_(reach) {
   const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
   maps_.resize(turns.size());
   execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -139,25 +141,86 @@ ContactHeights::ContactHeights(const std::vector<Sphere>& spheres, double reach,
   });
 }
 
-std::vector<double> ContactHeights::distances(const Execution& execution) const {
+namespace {
+
+float largest_sum(const std::vector<float>& top, const std::vector<float>& bottom) {
+  // Eight maxima, which the compiler updates at once.
+  std::array<float, 8> largest;
+  largest.fill(nothing);
+  for (std::size_t i = 0; i < top.size(); i += largest.size()) {
+    for (std::size_t lane = 0; lane < largest.size(); ++lane) {
+      const float sum = top[i + lane] - bottom[i + lane];
+      largest[lane] = sum > largest[lane] ? sum : largest[lane];
+    }
+  }
+  return *std::max_element(largest.begin(), largest.end());
+}
+
+/// Returns the slopes of a map's heights along x and y at a pixel, per pixel; at the body's rim
+/// only towards the inside.
+std::array<double, 2> slopes_at(const std::vector<float>& heights, std::size_t pixel) {
+  constexpr std::size_t pixels = ContactHeights::pixels;
+  const std::array<std::size_t, 2> strides = {1, pixels};
+  const std::array<std::size_t, 2> places = {pixel % pixels, pixel / pixels};
+  std::array<double, 2> slopes{};
+  const auto is_body = [&](std::size_t at) { return std::abs(heights[at]) < -nothing; };
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const std::size_t stride = strides[axis];
+    const std::size_t from = places[axis] > 0 && is_body(pixel - stride) ? pixel - stride : pixel;
+    const std::size_t to =
+        places[axis] + 1 < pixels && is_body(pixel + stride) ? pixel + stride : pixel;
+    if (from == to) continue;
+    slopes[axis] = (static_cast<double>(heights[to]) - static_cast<double>(heights[from])) *
+                   static_cast<double>(stride) / static_cast<double>(to - from);
+  }
+  return slopes;
+}
+
+}  // namespace
+
+std::pair<std::size_t, std::size_t> ContactHeights::poses_of(std::size_t pair) const {
   const std::size_t count = maps_.size();
-  std::vector<double> result(count * (count - 1));
+  const std::size_t below = pair / (count - 1);
+  return {below, (below + 1 + pair % (count - 1)) % count};
+}
+
+std::vector<double> ContactHeights::distances(const Execution& execution) const {
+  std::vector<double> result(maps_.size() * (maps_.size() - 1));
   execution.parallel_for(result.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t pair = begin; pair < end; ++pair) {
-      const std::size_t below = pair / (count - 1);
-      const std::size_t above = (below + 1 + pair % (count - 1)) % count;
-      const float* const top = maps_[below].top.data();
-      const float* const bottom = maps_[above].bottom.data();
-      // Eight maxima, which the compiler updates at once.
-      std::array<float, 8> largest;
-      largest.fill(nothing);
-      for (std::size_t i = 0; i < maps_[below].top.size(); i += largest.size()) {
-        for (std::size_t lane = 0; lane < largest.size(); ++lane) {
-          const float sum = top[i + lane] - bottom[i + lane];
-          largest[lane] = sum > largest[lane] ? sum : largest[lane];
-        }
+      const auto [below, above] = poses_of(pair);
+      result[pair] = largest_sum(maps_[below].top, maps_[above].bottom);
+    }
+  });
+  return result;
+}
+
+std::vector<FirstTouch> ContactHeights::touches(const ContactHeights& other,
+                                                const Execution& execution) const {
+  std::vector<FirstTouch> result(maps_.size() * (maps_.size() - 1));
+  constexpr std::size_t side = pixels;
+  const double scale = 2.0 * reach_ / pixels;
+  execution.parallel_for(result.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t pair = begin; pair < end; ++pair) {
+      const auto [below, above] = poses_of(pair);
+      const std::vector<float>& top = maps_[below].top;
+      const std::vector<float>& bottom = other.maps_[above].bottom;
+      const float largest = largest_sum(top, bottom);
+      FirstTouch& touch = result[pair];
+      touch.distance = largest;
+      touch.touches = touch.distance > passing;
+      if (!touch.touches) continue;
+      std::size_t pixel = 0;
+      while (top[pixel] - bottom[pixel] != largest) ++pixel;
+      const auto way = [&](std::size_t place) {
+        return (static_cast<double>(place) + 0.5 - 0.5 * pixels) * scale;
+      };
+      touch.place = Vector3(way(pixel % side), way(pixel / side), top[pixel]);
+      for (const std::vector<float>* heights : {&top, &bottom}) {
+        const std::array<double, 2> slopes = slopes_at(*heights, pixel);
+        touch.normal += Vector3(-slopes[0] / scale, -slopes[1] / scale, 1.0).normalized();
       }
-      result[pair] = *std::max_element(largest.begin(), largest.end());
+      touch.normal.normalize();
     }
   });
   return result;
@@ -180,6 +243,38 @@ ContactError contact_error(const std::vector<double>& distances, const std::vect
 
 namespace {
 
+ContactSpread spread_of(std::vector<double> errors) {
+  std::sort(errors.begin(), errors.end());
+  if (errors.empty()) return {};
+  const auto at = [&](double share) {  // Hazen's quantile
+    const auto last = static_cast<double>(errors.size() - 1);
+    const double place = std::clamp(share * (last + 1.0) - 0.5, 0.0, last);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, errors.size() - 1);
+    return errors[below] + (place - static_cast<double>(below)) * (errors[above] - errors[below]);
+  };
+  return {at(0.5), at(0.9)};
+}
+
+}  // namespace
+
+TouchErrors touch_errors(const std::vector<FirstTouch>& touches,
+                         const std::vector<FirstTouch>& scan) {
+  std::vector<double> gaps;
+  std::vector<double> places;
+  std::vector<double> normals;
+  for (std::size_t i = 0; i < touches.size(); ++i) {
+    if (!touches[i].touches || !scan[i].touches) continue;
+    gaps.push_back(100.0 * std::abs(touches[i].distance - scan[i].distance));
+    places.push_back(100.0 * (touches[i].place - scan[i].place).norm());
+    const double cosine = touches[i].normal.dot(scan[i].normal);
+    normals.push_back(180.0 / pi * portable::acos(std::clamp(cosine, -1.0, 1.0)));
+  }
+  return {spread_of(std::move(gaps)), spread_of(std::move(places)), spread_of(std::move(normals))};
+}
+
+namespace {
+
 /// A remesh of few nodes extends farther than the scan.
 constexpr double room = 1.2;
 
@@ -190,12 +285,25 @@ ScanContacts::ScanContacts(const IndexedMesh& scan, const ShapeDescriptors& shap
     : frame_(shape) {
   const IndexedMesh unit = frame_.to_unit(scan);
   for (const Vector3& p : unit.points) reach_ = std::max(reach_, room * p.norm());
-  distances_ = ContactHeights(unit, reach_, execution).distances(execution);
+  heights_.emplace(unit, reach_, execution);
+  touches_ = heights_->touches(*heights_, execution);
 }
 
 ContactError ScanContacts::error_of(const IndexedMesh& remesh, const Execution& execution) const {
+  return errors_of(remesh, execution).distance;
+}
+
+ScanContacts::Errors ScanContacts::errors_of(const IndexedMesh& remesh,
+                                             const Execution& execution) const {
+  const auto distances = [](const std::vector<FirstTouch>& touches) {
+    std::vector<double> list;
+    for (const FirstTouch& one : touches) list.push_back(one.distance);
+    return list;
+  };
   const ContactHeights heights(frame_.to_unit(remesh), reach_, execution);
-  return contact_error(heights.distances(execution), distances_);
+  const std::vector<FirstTouch> touches = heights.touches(heights, execution);
+  return {contact_error(distances(touches), distances(touches_)), touch_errors(touches, touches_),
+          touch_errors(heights.touches(*heights_, execution), touches_)};
 }
 
 }  // namespace wscvt

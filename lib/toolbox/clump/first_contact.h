@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "toolbox/clump/sphere.h"
@@ -19,6 +21,31 @@ struct ContactError {
   double scatter = 0.0;  ///< standard deviation about the mean
 };
 
+/// Errors without sign over pairs of poses.
+struct ContactSpread {
+  double median = 0.0;
+  double percent_90 = 0.0;  ///< 90 % of the contacts have a smaller error
+};
+
+/// Errors of first contacts against the scans': in % of the equivalent radius, and degrees.
+struct TouchErrors {
+  ContactSpread gap;     ///< of the centroids' distance; %
+  ContactSpread place;   ///< distance of the places of contact; %
+  ContactSpread normal;  ///< angle between the normals; degrees
+};
+
+/// First contact of two bodies that approach each other along z.
+struct FirstTouch {
+  double distance = 0.0;             ///< of the origins
+  Vector3 place = Vector3::Zero();   ///< from the lower origin
+  Vector3 normal = Vector3::Zero();  ///< unit, upwards: mean of the two surfaces' own
+  bool touches = false;              ///< false if they pass each other, as bodies with a hole may
+};
+
+/// Returns the errors over the pairs in which both touch.
+TouchErrors touch_errors(const std::vector<FirstTouch>& touches,
+                         const std::vector<FirstTouch>& scan);
+
 /// Heights above a plane through the origin, and depths below it, of a body of equivalent radius 1
 /// about the origin, in random but fixed directions. If two bodies approach each other along a line
 /// through both origins, they touch at the largest sum of height and depth.
@@ -35,11 +62,18 @@ class ContactHeights {
   /// below -1e20 if the bodies pass each other, as bodies with a hole may.
   std::vector<double> distances(const Execution& execution) const;
 
+  /// Returns the contacts of this body, below, with another one of the same reach, above; in the
+  /// same order. Slopes are differences over two pixels, a hundredth of the reach.
+  std::vector<FirstTouch> touches(const ContactHeights& above, const Execution& execution) const;
+
  private:
   struct Map {
     std::vector<float> top;
     std::vector<float> bottom;
   };
+  /// Returns below and above of a pair.
+  std::pair<std::size_t, std::size_t> poses_of(std::size_t pair) const;
+  double reach_ = 0.0;
   std::vector<Map> maps_;
 };
 
@@ -57,10 +91,19 @@ class ScanContacts {
   /// moved, turned or scaled together, the error stays the same, but for rounding.
   ContactError error_of(const IndexedMesh& remesh, const Execution& execution) const;
 
+  /// All errors of a remesh.
+  struct Errors {
+    ContactError distance;
+    TouchErrors two_sided;  ///< two remeshes
+    TouchErrors one_sided;  ///< the remesh below, the scan above
+  };
+  Errors errors_of(const IndexedMesh& remesh, const Execution& execution) const;
+
  private:
   UnitFrame frame_;
   double reach_ = 0.0;
-  std::vector<double> distances_;
+  std::optional<ContactHeights> heights_;
+  std::vector<FirstTouch> touches_;
 };
 
 }  // namespace wscvt

@@ -129,7 +129,7 @@ GrainShape measure_level(const RemeshJob& job, double voxel_size, RemeshResult& 
     }
     if (measures.contacts) {
       if (!scan.contacts) scan.contacts.emplace(result.repaired_scan, result.scan, execution);
-      shape.contacts = scan.contacts->error_of(result.mesh, execution);
+      shape.contacts = scan.contacts->errors_of(result.mesh, execution);
     }
   } catch (const Error& failure) {
     if (failure.code() == ErrorCode::Cancelled) throw;

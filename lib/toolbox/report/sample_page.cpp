@@ -372,7 +372,8 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
         "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
         "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
         "contact, minus the distance of two scans, over random pairs of poses. The table has its "
-        "mean and its standard deviation over the pairs (scatter).");
+        "mean and its standard deviation over the pairs (scatter), the distance of the places of "
+        "contact, and the angle of the contacts' normals in degrees.");
     add_place(page, "levels");
     page.add_rows(levels_table(*report.levels));
   }

@@ -361,7 +361,8 @@ function errors(name) {
   const a = axes({low: first * 0.9, high: last * 1.1, log: true, at: levels.nodes,
                   label: "number of nodes N"},
                  {low: least * 0.8, high: most * 1.25, log: true,
-                  label: /^(rms_distance|contact_error)/.test(name) ?
+                  label: /^contact_normal/.test(name) ? "error, degrees" :
+                      /^(rms_distance|contact_)/.test(name) ?
                       "error, % of the equivalent radius" : "error, %"});
   const curve = list => levels.nodes.map((n, k) => [n, list[k]])
       .filter(p => found(p[1]) && p[1] > 0).map(p => [a.px(p[0]), a.py(p[1])]);

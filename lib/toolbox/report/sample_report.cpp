@@ -37,7 +37,7 @@ bool is_main(const std::string& name) {
 
 /// Errors of the remesh itself, not of a descriptor.
 bool is_distance_or_contact(const std::string& name) {
-  return name == "rms_distance" || name.rfind("contact_error_", 0) == 0;
+  return name == "rms_distance" || name.rfind("contact_", 0) == 0;
 }
 
 std::string short_number(double value) { return format_number(value, 4); }
@@ -234,14 +234,15 @@ Json json_of(const DetailLevels& levels) {
 /// Rows of a sample's CSV for the errors at each number of nodes.
 void append_levels(const std::string& sample, const DetailLevels& levels, std::string& text) {
   for (const DescriptorLevels& row : levels.rows) {
+    const bool is_angle = row.name.rfind("contact_normal_", 0) == 0;
     const auto add = [&](const std::string& unit, const std::string& statistic, double value) {
       text +=
           csv_record({sample, row.name, unit, "number", statistic, format_exact(value), "", ""});
     };
     for (std::size_t k = 0; k < row.levels.size(); ++k) {
       const std::string nodes = "_n" + format_number(levels.nodes[k], 9);
-      add("%", "error_median" + nodes, row.levels[k].median);
-      add("%", "error_percent_90" + nodes, row.levels[k].percent_90);
+      add(is_angle ? "degrees" : "%", "error_median" + nodes, row.levels[k].median);
+      add(is_angle ? "degrees" : "%", "error_percent_90" + nodes, row.levels[k].percent_90);
     }
     add("", "nodes_needed", row.nodes_needed);
   }

@@ -2,6 +2,7 @@
 #include "toolbox/report/shape_table.h"
 
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,17 @@ void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors
   append_quality(mesh, quality, values);
 }
 
+void append_touches(const std::string& suffix, const TouchErrors& errors,
+                    std::vector<ShapeValue>& values) {
+  const std::tuple<const char*, const char*, ContactSpread> rows[] = {
+      {"gap", "%", errors.gap}, {"place", "%", errors.place}, {"normal", "degrees", errors.normal}};
+  for (const auto& [name, unit, spread] : rows) {
+    const std::string start = "contact_" + std::string(name);
+    values.push_back({{start + "_median" + suffix, unit}, spread.median});
+    values.push_back({{start + "_90" + suffix, unit}, spread.percent_90});
+  }
+}
+
 void append_resolution(const Resolution& resolution, std::vector<ShapeValue>& values) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   const bool is_known = !resolution.rows.empty();
@@ -74,8 +86,10 @@ std::vector<ShapeValue> values_of(const RemeshResult& result, const GrainShape& 
   std::vector<ShapeValue> values = {{{"nodes", ""}, static_cast<double>(result.mesh.points.size())},
                                     {{"rms_distance", "length"}, result.rms_distance}};
   if (shape.contacts) {
-    values.push_back({{"contact_error_mean", "%"}, shape.contacts->mean});
-    values.push_back({{"contact_error_scatter", "%"}, shape.contacts->scatter});
+    values.push_back({{"contact_error_mean", "%"}, shape.contacts->distance.mean});
+    values.push_back({{"contact_error_scatter", "%"}, shape.contacts->distance.scatter});
+    append_touches("", shape.contacts->two_sided, values);
+    append_touches("_one_sided", shape.contacts->one_sided, values);
   }
   if (shape.scan) {
     append_mesh("scan.", *shape.scan, result.scan_quality, values);

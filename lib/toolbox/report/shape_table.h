@@ -46,7 +46,7 @@ struct ShapeMeasures {
 struct GrainShape {
   std::optional<DetailedDescriptors> scan;
   std::optional<DetailedDescriptors> remesh;
-  std::optional<ContactError> contacts;
+  std::optional<ScanContacts::Errors> contacts;
   std::optional<Resolution> resolution;  ///< of the scan; without rows if its voxels are not known
 };
 
@@ -54,11 +54,13 @@ struct GrainShape {
 // columns are "grain", "status" and "error" as in the sample's table; "file", the remesh's file
 // name; "nodes"; "rms_distance [length]" two-sided; if contacts are measured,
 // "contact_error_mean [%]" and "contact_error_scatter [%]" of the equivalent radius, see
-// ContactError. Then, with the prefix "scan." or "remesh." for each described mesh: the keys of
-// list_descriptors, the principal frame (centroid, principal moments at unit density, unit
-// quaternion) and the quality of the mesh. If the size of the scans' voxels is known, also
-// "resolution.voxel_size [length]", "resolution.voxels_across", and for each descriptor KEY of the
-// scan "resolution.KEY.corrected", ".low" and ".high", empty if it is not resolved.
+// ContactError, and for two remeshes and, with the suffix "_one_sided", for the remesh against the
+// scan "contact_gap_median [%]", "contact_place_median [%]", "contact_normal_median [degrees]" and
+// the same with "_90", see TouchErrors. Then, with the prefix "scan." or "remesh." for each
+// described mesh: the keys of list_descriptors, the principal frame (centroid, principal moments at
+// unit density, unit quaternion) and the quality of the mesh. If the size of the scans' voxels is
+// known, also "resolution.voxel_size [length]", "resolution.voxels_across", and for each descriptor
+// KEY of the scan "resolution.KEY.corrected", ".low" and ".high", empty if it is not resolved.
 
 /// Returns the first record.
 std::string shape_header(const ShapeMeasures& measures);

@@ -20,7 +20,7 @@ Eigen::ArrayXd column(const GrainTable& table, const std::string& name) {
   return table.values.col(static_cast<Eigen::Index>(table.index_of(name))).array();
 }
 
-bool is_contact_error(const std::string& name) { return name.rfind("contact_error_", 0) == 0; }
+bool is_contact_error(const std::string& name) { return name.rfind("contact_", 0) == 0; }
 
 /// Returns the error of each grain in %; empty if the table lacks a column.
 std::optional<Eigen::ArrayXd> errors_of(const GrainTable& table, const std::string& name) {
@@ -38,7 +38,9 @@ std::optional<Eigen::ArrayXd> errors_of(const GrainTable& table, const std::stri
 
 /// Returns the kinds of errors, in the order of a table's rows.
 std::vector<std::string> error_names() {
-  std::vector<std::string> names = {"rms_distance", "contact_error_mean", "contact_error_scatter"};
+  std::vector<std::string> names = {"rms_distance",          "contact_error_mean",
+                                    "contact_error_scatter", "contact_place_median",
+                                    "contact_normal_median", "contact_normal_90"};
   for (const DescriptorValue& one : list_descriptors(DetailedDescriptors())) {
     if (one.on_ratio_scale) names.push_back(one.key);
   }

@@ -17,10 +17,10 @@ struct LevelError {
   std::size_t count = 0;    ///< grains that have the error
 };
 
-/// Errors of one kind at each level: distances and contacts in % of the equivalent radius,
-/// descriptors in % of the scan's value.
+/// Errors of one kind at each level: distances and contacts in % of the equivalent radius, normals
+/// of contacts in degrees, descriptors in % of the scan's value.
 struct DescriptorLevels {
-  std::string name;  ///< "rms_distance", "contact_error_mean", "contact_error_scatter"; descriptors
+  std::string name;  ///< "rms_distance"; as the table's columns of contacts; descriptors
   std::vector<LevelError> levels;
   /// Smallest number of nodes from which on 90 % of the grains have errors below the mark,
   /// interpolated linearly on logarithmic axes between two levels. NaN if no level is enough.
