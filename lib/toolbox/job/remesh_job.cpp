@@ -299,7 +299,11 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
         return one.name == "shape" && one.header.find("resolution.") != std::string::npos;
       });
   if (!has_voxels) return lines;
-  for (const std::string& line : voxel_lines(read_grain_table(shapes))) lines.push_back(line);
+  try {
+    for (const std::string& line : voxel_lines(read_grain_table(shapes))) lines.push_back(line);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
+  }
   return lines;
 }
 

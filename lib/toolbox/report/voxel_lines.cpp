@@ -92,7 +92,7 @@ std::vector<std::string> voxel_lines(const GrainTable& shapes) {
   if (too_many > 0) {
     lines.push_back("The voxels of " + of_grains(too_many, across.size()) +
                     " resolve fewer nodes than were asked for: " +
-                    format_number(quantile(ascending(std::move(enough)), 0.5), 2) +
+                    std::to_string(std::lround(quantile(ascending(std::move(enough)), 0.5))) +
                     " are enough for the median grain.");
   }
   return lines;

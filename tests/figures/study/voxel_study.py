@@ -2,12 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What voxels do, on bodies of its own whose true shape is known: rounded polyhedra with waves, seen from their centre.
 
-nodes WSCVT    how many nodes the voxels resolve
-segment WSCVT  errors after blur, noise and wscvt segment
-sample WSCVT   a sample whose shape does not depend on the size: trends, raw and corrected, and a cut-off by volume
+nodes WSCVT [FOLDER]  how many nodes the voxels resolve; files are in the folder, which is a temporary one if not given
 """
 
-import csv
 import json
 import os
 import pathlib
@@ -87,23 +84,19 @@ def write_off(path, points):
         np.savetxt(stream, np.c_[np.full(len(FACES), 3), FACES], "%d")
 
 
-def placed(seed, across, finer=1):
-    """Returns the share of each voxel inside the body, from finer^3 points, and the true mesh, in voxels."""
+def placed(seed, across):
+    """Returns which voxels have their centres inside the body, and the true mesh, in voxels."""
     body = Body(seed)
     points = body.mesh(SPHERE)
     scale = across / (6 * volume(points) / np.pi) ** (1 / 3)
-    draw = np.random.default_rng(1000 * seed + across)
+    draw = np.random.default_rng(100 * seed + across)
     turn = np.linalg.qr(draw.normal(size=(3, 3)))[0]
     turn *= np.sign(np.linalg.det(turn))
     true = points * scale @ turn.T
     low = true.min(0) - 6 - draw.uniform(0, 1, 3)
     counts = np.ceil(true.max(0) - low).astype(int) + 6
-    share = np.zeros(counts)
-    for offset in np.ndindex(finer, finer, finer):
-        at = [np.arange(n) + (o + 0.5) / finer for n, o in zip(counts, offset)]
-        grid = np.stack(np.meshgrid(*at, indexing="ij"), -1).reshape(-1, 3) + low
-        share += body.inside(grid @ turn / scale).reshape(counts) / finer ** 3
-    return share, true - low
+    grid = np.stack(np.meshgrid(*[np.arange(n) + 0.5 for n in counts], indexing="ij"), -1).reshape(-1, 3) + low
+    return body.inside(grid @ turn / scale).reshape(counts), true - low
 
 
 def save(path, array, kind=np.uint8):
@@ -124,8 +117,8 @@ def nodes(program):
     print("body | voxels across | rms of the scan, voxels | nodes: side of a node's cell in voxels, rms over the scan's")
     for seed in range(101, 105):
         for across in (12, 20, 40):
-            share, true = placed(seed, across)
-            save("labels.npy", share > 0.5)
+            inside, true = placed(seed, across)
+            save("labels.npy", inside)
             write_off("true.off", true)
             call(program, "extract", "labels.npy", "scan", "-q")
             scan = report(program, "compare", "scan/1.ply", "true.off")
@@ -139,77 +132,9 @@ def nodes(program):
             print(f"{seed} | {across} | {rms:.3f} | " + "; ".join(cells), flush=True)
 
 
-def blurred(share, sigma):
-    reach = int(4 * sigma) + 1
-    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
-    for axis in range(3):
-        share = np.apply_along_axis(np.convolve, axis, share, weights / weights.sum(), "same")
-    return share
-
-
-KEYS = ("area", "sphericity_wadell", "convexity", "roundness_wadell")
-
-
-def segment(program):
-    print("blur, noise | voxels across | bodies | " + " | ".join(f"{key} raw, corrected %, covered" for key in KEYS))
-    for sigma, noise in ((0.0, 0.0), (0.7, 0.05), (1.0, 0.1)):
-        for across in (20, 40):
-            errors = {key: [] for key in KEYS}
-            for seed in range(201, 205):
-                share, true = placed(seed, across, 2)
-                grey = 50 + 150 * (blurred(share, sigma) if sigma > 0 else share)
-                grey += 150 * noise * np.random.default_rng(seed).normal(size=grey.shape)
-                save("grey.npy", np.clip(np.round(grey), 0, 255))
-                write_off("true.off", true)
-                call(program, "segment", "grey.npy", "labels.nrrd", "-q")
-                call(program, "extract", "labels.nrrd", "scan", "-q")
-                largest = max(pathlib.Path("scan").glob("*.ply"), key=os.path.getsize)
-                truth = report(program, "describe", "true.off")["descriptors"]
-                found = report(program, "describe", largest, "--voxel-size", 1)
-                for key in KEYS:
-                    size = 1.0 if key.startswith("roundness") else truth[key]
-                    row = found["resolution"][key]
-                    if found["descriptors"][key] is None or row["corrected"] is None:
-                        continue
-                    errors[key].append(((found["descriptors"][key] - truth[key]) / size, (row["corrected"] - truth[key]) / size,
-                                        row["low"] <= truth[key] <= row["high"]))
-                for file in pathlib.Path("scan").iterdir():
-                    file.unlink()
-            cells = []
-            for key in KEYS:
-                of = np.array(errors[key], float).reshape(-1, 3)
-                cells.append(f"{100 * np.sqrt(np.mean(of[:, 0] ** 2)):.1f}, {100 * np.sqrt(np.mean(of[:, 1] ** 2)):.1f}, "
-                             f"{int(of[:, 2].sum())} of {len(of)}" if len(of) else "not resolved")
-            print(f"{sigma}, {noise} | {across} | 4 | " + " | ".join(cells), flush=True)
-
-
-def sample(program):
-    """Grains of 9 to 45 voxels across, log-normal, each a body of its own."""
-    draw = np.random.default_rng(1)
-    sizes = np.clip(np.exp(draw.normal(np.log(18), 0.45, 120)), 9, 45).round().astype(int)
-    parts = [placed(1000 + k, int(size))[0] > 0.5 for k, size in enumerate(sizes)]
-    counts = np.max([part.shape for part in parts], axis=0)
-    labels = np.zeros((counts[0], counts[1], sum(part.shape[2] for part in parts)), np.uint8)
-    place = 0
-    for k, part in enumerate(parts):
-        labels[:part.shape[0], :part.shape[1], place:place + part.shape[2]] = part * np.uint8(k + 1)
-        place += part.shape[2]
-    save("sample.npy", labels)
-    print(call(program, "batch", "sample.npy", "-o", "out", "-n", 200))
-    print(call(program, "sample", "out", "--size", "equivalent-diameter", "--report", "sample.html", "--report", "sample.json"))
-    with open("out/shape.csv", encoding="utf-8") as stream:
-        rows = list(csv.DictReader(stream))
-    across = np.array([float(row["resolution.voxels_across"]) for row in rows])
-    mass = across ** 3
-    for least in (1000, 10000, 50000):
-        kept = np.pi / 6 * across ** 3 >= least
-        print(f"cut-off {least} voxels ({(6 * least / np.pi) ** (1 / 3):.1f} across): keeps {kept.sum()} of {len(kept)} grains, "
-              f"{100 * mass[kept].sum() / mass.sum():.0f} % of the mass")
-
-
 if __name__ == "__main__":
     wscvt = pathlib.Path(sys.argv[2]).resolve()
-    command = {"nodes": nodes, "segment": segment, "sample": sample}[sys.argv[1]]
+    command = {"nodes": nodes}[sys.argv[1]]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(sys.argv[3] if len(sys.argv) > 3 else folder)
         command(wscvt)
