@@ -63,7 +63,7 @@ class ContactHeights {
   std::vector<double> distances(const Execution& execution) const;
 
   /// Returns the contacts of this body, below, with another one of the same reach, above; in the
-  /// same order. Slopes are differences over two pixels, a hundredth of the reach.
+  /// same order. Slopes are differences over two pixels, a 64th of the reach.
   std::vector<FirstTouch> touches(const ContactHeights& above, const Execution& execution) const;
 
  private:
