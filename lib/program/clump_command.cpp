@@ -40,7 +40,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
        "Fit overlapping spheres to a grain, for engines that use clumps",
        {"scan.ply -k 20 -o clump.csv --report clump.html",
         "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
-        "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o clumps"},
+        "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o run --size 0.02 --engine lammps"},
        "Mass, centre and inertia are the grain's. The report has the errors of the spheres' "
        "own values.\nwscvt compare clump.csv scan.ply measures a clump.",
        true,
@@ -53,7 +53,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
       ->type_name("FILE")
       ->required()
       ->allow_extra_args(false);
-  add_scan_inputs(app, arguments.sample, "clumps", arguments.job.format);
+  add_scan_inputs(app, arguments.sample, "clumps", arguments.job.format, EngineShapes::Clumps);
   AddClumpOption add{app};
   for_each_clump_option(arguments.job.clump, add);
   for (const std::string_view key : {points_option.key, shrink_wrap_option.key,
@@ -77,13 +77,17 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
 
 int run(const ClumpArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  checked([&] { check_job(arguments.job); });
+  ClumpJob job = arguments.job;
+  checked([&] {
+    check_job(job);
+    check_engine_inputs(arguments.sample, EngineShapes::Clumps, job.format, job.frame);
+  });
   if (arguments.sample.is_sample()) {
     checked(
         [&] { check_sample_outputs(arguments.outputs, common.reports, "clumps", is_clump_name); });
     return run_sample(arguments.sample,
-                      make_job(arguments.job, arguments.outputs.front(), arguments.sample.shard),
-                      common.threads, common.quiet);
+                      make_job(job, arguments.outputs.front(), arguments.sample.shard),
+                      EngineShapes::Clumps, job.frame, common.threads, common.quiet);
   }
   const std::string& scan = arguments.sample.inputs.front();
   checked([&] {

@@ -25,7 +25,7 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
        "Divide a grain into convex parts, for physics engines",
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html",
-        "scans -k 4 -o parts --format urdf"},
+        "scans -k 4 --faces 60 -o run --size 0.02 --engine mujoco"},
        "The cuts are chosen on a remesh of 500 nodes, with the options of wscvt remesh.\n"
        "The parts are hulls of pieces of the scan.",
        true,
@@ -37,7 +37,7 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();
-  add_scan_inputs(app, arguments.sample, "parts", arguments.job.format);
+  add_scan_inputs(app, arguments.sample, "parts", arguments.job.format, EngineShapes::Parts);
   add_number(app, "-k,--parts", arguments.job.convex.parts, convex_parts_option);
   add_number(app, "--faces", arguments.job.convex.faces, convex_faces_option);
   add_number(app, "--hull-distance", arguments.job.convex.tolerance, convex_tolerance_option);
@@ -59,8 +59,14 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
 
 int run(const ConvexArguments& arguments) {
   const CommonArguments& common = arguments.common;
-  const ConvexJob& job = arguments.job;
-  checked([&] { check_job(job); });
+  ConvexJob job = arguments.job;
+  checked([&] {
+    check_job(job);
+    check_engine_inputs(arguments.sample, EngineShapes::Parts, job.format, job.frame);
+    if (arguments.sample.engine == "yade" && job.convex.parts > 1) {
+      refuse("Yade takes one convex polyhedron for a grain. Give -k 1.");
+    }
+  });
   if (arguments.sample.is_sample()) {
     checked([&] {
       check_sample_outputs(arguments.outputs, common.reports, "parts", [](const std::string& path) {
@@ -70,7 +76,7 @@ int run(const ConvexArguments& arguments) {
     });
     return run_sample(arguments.sample,
                       make_job(job, arguments.outputs.front(), arguments.sample.shard),
-                      common.threads, common.quiet);
+                      EngineShapes::Parts, job.frame, common.threads, common.quiet);
   }
   const std::string& scan = arguments.sample.inputs.front();
   std::vector<NamedFile> outputs = named_reports(common.reports);

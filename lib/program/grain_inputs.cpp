@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grain_inputs.h"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "command.h"
@@ -10,10 +13,12 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "toolbox/job/label_source.h"
+#include "toolbox/sample/given_sizes.h"
 #include "toolbox/volume/open_volume.h"
 #include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -41,14 +46,40 @@ void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet)
   }
 }
 
+void copy_text(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::ifstream file(from, std::ios::binary);
+  write_file(to.string(), std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+/// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
+/// gives their weights and sizes.
+std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
+                               const GrainSource& grains, EngineShapes shapes,
+                               const FrameOptions& frame) {
+  const JobFolder folder = folders_of(job).front();
+  std::vector<EngineGrain> list;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    list.push_back({grains.name(k), folder.name_of(grains.name(k))});
+  }
+  const std::filesystem::path out(folder.path());
+  const std::filesystem::path in(arguments.inputs.front());
+  if (arguments.inputs.size() == 1 && std::filesystem::exists(in / "templates.csv")) {
+    copy_text(in / "templates.csv", out / "templates.csv");
+    if (arguments.sizes.empty()) copy_text(in / "sizes.csv", out / "sizes.csv");
+  }
+  if (!arguments.sizes.empty()) copy_text(arguments.sizes, out / "sizes.csv");
+  return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame);
+}
+
 }  // namespace
 
 bool ScanInputs::is_sample() const {
-  return inputs.size() > 1 || names_files(inputs.front()) || is_volume(inputs.front());
+  return !engine.empty() || inputs.size() > 1 || names_files(inputs.front()) ||
+         is_volume(inputs.front());
 }
 
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
-                     std::string& format) {
+                     std::string& format, EngineShapes shapes) {
   app.add_option("scans", arguments.inputs,
                  mesh_argument_text("Scan", MeshUse::Read) +
                      "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE "
@@ -65,6 +96,34 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
       ->description("Use only part I of N of several scans, selected by their names")
       ->type_name("I/N")
       ->group(finer_settings);
+  app.add_option("--engine", arguments.engine,
+                 "Make a folder of the " + files +
+                     " that this engine packs: " + engine_names(shapes) +
+                     ". Its run.py starts the engine; scene.json has the number of grains, the "
+                     "container and the materials")
+      ->type_name("NAME");
+  app.add_option("--sizes", arguments.sizes,
+                 "Size curve of the packing, a CSV file of two columns: equivalent diameter, % "
+                 "finer by mass. Default: the grains' own sizes")
+      ->type_name("FILE")
+      ->group(finer_settings);
+}
+
+void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
+                         const std::string& format, FrameOptions& frame) {
+  if (arguments.engine.empty()) {
+    if (!arguments.sizes.empty()) refuse("--sizes is for a packing. Give --engine too.");
+    return;
+  }
+  check_engine(arguments.engine, shapes);
+  if (format != engine_format(shapes)) {
+    refuse("The engine's files have their own format. Leave out --format.");
+  }
+  if (frame.frame == Frame::Centred) {
+    refuse("The engine's files are in the principal frame. Leave out --frame.");
+  }
+  frame.frame = Frame::Principal;
+  if (!arguments.sizes.empty()) read_given_sizes(arguments.sizes);
 }
 
 void check_sample_outputs(const std::vector<std::string>& outputs,
@@ -80,7 +139,8 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
   }
 }
 
-int run_sample(const ScanInputs& arguments, const GrainJob& job, int threads, bool quiet) {
+int run_sample(const ScanInputs& arguments, const GrainJob& job, EngineShapes shapes,
+               const FrameOptions& frame, int threads, bool quiet) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
   const JobEnd end = run_job(job, *inputs, threads, quiet);
@@ -88,6 +148,10 @@ int run_sample(const ScanInputs& arguments, const GrainJob& job, int threads, bo
   print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
          " failed: " + folders_of(job).front().table()},
         quiet);
+  if (!arguments.engine.empty() && arguments.shard.count == 1) {
+    const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame);
+    print({"Pack them: cd " + folders_of(job).front().path() + " && " + start}, quiet);
+  }
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/exchange/engine_folder.h"
 #include "toolbox/job/grain_job.h"
 #include "toolbox/volume/label_grains.h"
 
@@ -15,15 +16,23 @@ namespace wscvt::program {
 struct ScanInputs {
   std::vector<std::string> inputs;  ///< a scan, or inputs as of a batch
   Shard shard;                      ///< of a sample
+  std::string engine;               ///< for which the folder is made ready; or empty
+  std::string sizes;                ///< file of a size curve of the packing; or empty
 
-  /// Whether there is anything except one mesh file.
+  /// Whether there is anything except one mesh file, or the folder is for an engine.
   bool is_sample() const;
 };
 
-/// Adds the inputs, --format and --shard. `files` are what is made of each grain, and `format`
-/// their ending. Parsing changes `arguments` and `format`, which must outlive `app`.
+/// Adds the inputs, --format, --shard, --engine and --sizes. `files` are what is made of each
+/// grain, and `format` their ending. Parsing changes `arguments` and `format`, which must outlive
+/// `app`.
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
-                     std::string& format);
+                     std::string& format, EngineShapes shapes);
+
+/// Throws wscvt::Error(InvalidInput) if there is no such engine, or its files cannot have the
+/// format or the frame; or for a curve that cannot be read. Sets the frame of the engine's files.
+void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
+                         const std::string& format, FrameOptions& frame);
 
 /// Throws wscvt::Error(InvalidInput) if the outputs are not one folder, or a report is asked for.
 /// `is_file` tells whether an output is the name of a file.
@@ -31,8 +40,10 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
                           const std::vector<std::string>& reports, const std::string& files,
                           const std::function<bool(const std::string&)>& is_file);
 
-/// Runs the job of a sample, prints its table's name, and returns the exit code.
-int run_sample(const ScanInputs& arguments, const GrainJob& job, int threads, bool quiet);
+/// Runs the job of a sample, prints its table's name, and returns the exit code. With an engine,
+/// writes what it needs, and prints the command that starts it.
+int run_sample(const ScanInputs& arguments, const GrainJob& job, EngineShapes shapes,
+               const FrameOptions& frame, int threads, bool quiet);
 
 /// Returns the files of the inputs of a batch, see grain_files. Throws wscvt::Error for a file that
 /// is no volume and whose ending is that of no mesh.

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Loads a grain into the engines of Debian: Yade (level sets), LIGGGHTS (surface mesh), Gmsh (tetrahedra)
-# and VTK (ParaView has the same readers). Runs the examples of lib/examples/engines.
+# and VTK (ParaView has the same readers). Packs grains in the folders that --engine makes.
 #   tests/engines/run.sh PROGRAM FOLDER
 # PROGRAM is wscvt. Leaves the files in FOLDER. tests/run_all.sh engines runs it and installs the large
 # packages.
@@ -78,44 +78,71 @@ grep '^Packed 12 grains' templates/yade.log
 # The document's own commands: 20 templates, and 500 virtual grains, packed.
 sh "$here/growing.sh" "$program" "$folder/growing"
 
-# The examples, from scans to a packing at rest. One of the scans is broken, and names have spaces.
-examples=$here/../../lib/examples/engines
+# From scans to a packing at rest. One of the scans is broken, and names have spaces.
 mkdir -p "my scans"
 cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" "my scans"
 head -c 20000 "$here/../../meshes/sand_5658.ply" > "my scans/broken scan.ply"
-example() {  # its script, its heading, grains
-  case $1 in yade*) run="yade -n -x" ;; *) run=$python ;; esac
-  usage=$($run "$examples/$1.py" 2>&1) && exit 1
-  echo "$usage" | grep -q "$1.py SCANS"
-  rm -f "$1.png"
-  WSCVT=$program $run "$examples/$1.py" "my scans" "$3" > "$1.log" 2>&1 || {
-    tail -n 30 "$1.log" >&2
+printf 'diameter,finer\n0.01,0\n0.02,60\n0.03,100\n' > curve.csv
+packing() {  # folder, heading, grains, lower and upper limit of the porosity, call
+  folder=$1 heading=$2 grains=$3 low=$4 high=$5
+  shift 5
+  rm -rf "$folder"
+  # Exit code 3, because of the broken scan.
+  "$program" "$@" -o "$folder" -q 2> "$folder.errors" && exit 1
+  [ -z "${container-}" ] || sed -i "s/\"shape\": \"box\"/\"shape\": \"$container\"/" "$folder/scene.json"
+  case $heading in Yade) run="yade -n -x" ;; *) run=$python ;; esac
+  (cd "$folder" && $run run.py "$grains" > run.log 2>&1) || {
+    tail -n 30 "$folder/run.log" >&2
     exit 1
   }
-  grep -q '^Left out: my scans/broken scan.ply' "$1.log"
-  grep "^$2: $3 grains.* 0\.00.. m/s at most" "$1.log"
-  test -s "$1.png"
+  grep "^$heading: $grains grains at rest" "$folder/run.log" || {
+    tail -n 5 "$folder/run.log" >&2
+    exit 1
+  }
+  sed -n 's/.* porosity \([0-9.]*\), .*/\1/p' "$folder/run.log" |
+    awk -v low="$low" -v high="$high" '$1 < low || $1 > high { print "porosity", $1, "of", low, "to", high; exit 1 }' >&2
+  test -s "$folder/packing.png"
+  test "$(wc -l < "$folder/packing.csv")" = $((grains + 1))
 }
-example yade_polyhedra "Yade polyhedra" 6
-example yade_level_set "Yade level sets" 8
-example yade_clumps "Yade clumps" 8
-example liggghts_clumps "LIGGGHTS clumps" 8
-example lammps_clumps "LAMMPS clumps" 8
-example mujoco_packing MuJoCo 8
-example bullet_packing Bullet 8
-# LAMMPS moves grains with the mass and moments of the file, and not of the spheres.
-"$python" << END
-def head(path, word):
-    line, = [line for line in open(path) if line.endswith(" %s\n" % word)]
-    return [float(v) for v in line.split()[:-1] if float(v) != 0]
-files = [head("clump_%d.molecule" % k, "mass") + sorted(head("clump_%d.molecule" % k, "inertia")) for k in (0, 1)]
-grains = [line.split() for line in open("lammps_grains.dump").read().rpartition("ITEM: ENTRIES")[2].splitlines()[1:]]
-assert len(grains) == 8
-for grain in grains:
-    moved = [float(grain[1])] + sorted(float(v) for v in grain[8:11])
-    # The dump has six digits.
-    assert any(all(abs(a / b - 1) < 1e-5 for a, b in zip(moved, file)) for file in files), (moved, files)
+# Random packings of grains with friction have .4 to .55. Walls add to it: three grains fit side by side here.
+packing yade_clumps Yade 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine yade
+container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --sizes curve.csv --engine yade
+packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.02 --engine yade
+packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --sizes curve.csv --engine lammps
+container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine liggghts
+packing mujoco MuJoCo 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine mujoco
+container=cylinder packing bullet Bullet 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine bullet
+# Sizes of the packing follow the curve: 60 % of the mass is finer than 0.02. One of 120 grains has up to 3 %.
+"$python" - << END
+import csv
+sizes = [float(row["equivalent_diameter"]) for row in csv.DictReader(open("lammps/packing.csv"))]
+finer = sum(d ** 3 for d in sizes if d < 0.02) / sum(d ** 3 for d in sizes)
+assert min(sizes) >= 0.01 and max(sizes) <= 0.03 and abs(finer - 0.6) < 0.05, finer
 END
+# LAMMPS moves grains with the mass and moments of the grains, and not of their spheres.
+"$python" - << END
+given = [[float(v) for v in line.split()] for line in open("lammps/packing.bodies").read().splitlines()[1:]]
+text = open("lammps/packing.grains").read().rpartition("ITEM: ENTRIES")[2]
+moved = sorted(([float(v) for v in line.split()[1:]] for line in text.splitlines()[1:]), key=lambda row: row[0])
+assert len(moved) == len(given) == 120
+for a, b in zip(given, moved):
+    # The moments' sum is the trace, in any axes. The dump has six digits.
+    for mine, theirs in ((a[1], b[4]), (sum(a[5:8]), sum(b[5:8]))):
+        assert abs(mine / theirs - 1) < 1e-5, (a, b)
+END
+
+# The example that makes its grains by itself.
+examples=$here/../../lib/examples/engines
+yade -n -x "$examples/yade_level_set.py" > usage.log 2>&1 && exit 1
+grep -q "yade_level_set.py SCANS" usage.log
+rm -f yade_level_set.png
+WSCVT=$program yade -n -x "$examples/yade_level_set.py" "my scans" 8 > level_set.log 2>&1 || {
+  tail -n 30 level_set.log >&2
+  exit 1
+}
+grep -q '^Left out: my scans/broken scan.ply' level_set.log
+grep "^Yade level sets: 8 grains.* 0\.00.. m/s at most" level_set.log
+test -s yade_level_set.png
 
 # A clump of the grain: LIGGGHTS and Yade drop it on a wall.
 "$program" clump -q "$here/../../meshes/sand_7228.ply" -k 20 --size 0.05 -o clump.multisphere -o clump.py \

@@ -112,6 +112,47 @@ TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
                  {"parts.obj", "new"});
 }
 
+// Whether engines run the folder is tested by tests/run_all.sh engines.
+TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
+  write_sample();
+  std::ofstream(path("curve.csv")) << "0.1,0\n0.3,100\n";
+  const std::string call = "clump scans -k 2 -o out --size 0.2 --engine lammps --sizes curve.csv";
+  const Outcome outcome = run(call);
+  ASSERT_EQ(outcome.exit_code, 3) << outcome.errors;
+  EXPECT_NE(outcome.output.find("cd out && python3 run.py"), std::string::npos) << outcome.output;
+  EXPECT_EQ(content("out/sizes.csv"), content("curve.csv"));
+  EXPECT_NE(content("out/run.py").find("import packing"), std::string::npos);
+  EXPECT_TRUE(exists("out/packing.py"));
+  const std::string scene = content("out/scene.json");
+  EXPECT_NE(scene.find("\"grain\": \"scans/b.ply\""), std::string::npos) << scene;
+  EXPECT_NE(scene.find("\"file\": \"b.csv\""), std::string::npos) << scene;
+  EXPECT_NE(scene.find("\"size\": 0.2"), std::string::npos) << scene;
+  EXPECT_TRUE(exists("out/b.csv"));
+  // What a person changed stays.
+  std::ofstream(path("out/scene.json")) << "{}";
+  EXPECT_EQ(run(call).exit_code, 3);
+  EXPECT_EQ(content("out/scene.json"), "{}");
+  // One scan is a sample too; templates bring their weights and sizes.
+  ASSERT_EQ(run("convex scans/a.ply -k 1 -n 60 -q -o hull --engine yade").exit_code, 0);
+  EXPECT_TRUE(exists("hull/a.obj"));
+  std::filesystem::remove(path("scans/torn.ply"));
+  std::ofstream(path("scans/templates.csv")) << "file,weight_by_number\na.ply,0.3\nb.ply,0.7\n";
+  std::ofstream(path("scans/sizes.csv")) << "1,0\n2,100\n";
+  ASSERT_EQ(run("convex scans -k 2 -n 60 -q -o parts --engine bullet").exit_code, 0);
+  EXPECT_TRUE(exists("parts/bullet_settle.cpp"));
+  EXPECT_EQ(content("parts/templates.csv"), content("scans/templates.csv"));
+  EXPECT_EQ(content("parts/sizes.csv"), content("scans/sizes.csv"));
+  expect_refused("clump scans -o new",
+                 {{"--engine mujoco", 2, "Use wscvt convex"},
+                  {"--engine lamps", 2, "yade, lammps, liggghts"},
+                  {"--engine yade --format py", 2, "Leave out --format"},
+                  {"--engine yade --frame centred", 2, "Leave out --frame"},
+                  {"--engine yade --sizes scans/a.ply", 2, "a.ply"},
+                  {"--sizes curve.csv", 2, "Give --engine"}},
+                 {"new"});
+  expect_refused("convex scans -o new", {{"--engine yade", 2, "Give -k 1"}}, {"new"});
+}
+
 TEST_F(ClumpProgram, WrongCallsAreRefused) {
   write_sample();
   expect_refused("clump",

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/exchange/engine_folder.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/report/json.h"
+
+namespace wscvt {
+
+// The files of the folder engines/.
+extern const char* const packing_script;
+extern const char* const run_yade_script;
+extern const char* const run_lammps_script;
+extern const char* const run_liggghts_script;
+extern const char* const run_mujoco_script;
+extern const char* const mujoco_settle_script;
+extern const char* const run_bullet_script;
+extern const char* const bullet_settle_script;
+
+namespace {
+
+struct EngineRow {
+  std::string_view name;
+  bool takes_clumps;
+  bool takes_parts;
+  const char* command;
+  const char* script;        ///< run.py
+  const char* program_name;  ///< of a program that run.py compiles; or null
+  const char* program;
+};
+
+const std::vector<EngineRow>& engines() {
+  static const std::vector<EngineRow> rows = {
+      {"yade", true, true, "yade -n -x run.py", run_yade_script, nullptr, nullptr},
+      {"lammps", true, false, "python3 run.py", run_lammps_script, nullptr, nullptr},
+      {"liggghts", true, false, "python3 run.py", run_liggghts_script, nullptr, nullptr},
+      {"mujoco", false, true, "python3 run.py", run_mujoco_script, "mujoco_settle.cpp",
+       mujoco_settle_script},
+      {"bullet", false, true, "python3 run.py", run_bullet_script, "bullet_settle.cpp",
+       bullet_settle_script},
+  };
+  return rows;
+}
+
+bool takes(const EngineRow& engine, EngineShapes shapes) {
+  return shapes == EngineShapes::Clumps ? engine.takes_clumps : engine.takes_parts;
+}
+
+std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOptions& frame) {
+  Json list = Json::array();
+  for (const EngineGrain& grain : grains) {
+    list.push_back({{"grain", grain.name}, {"file", grain.file}});
+  }
+  const Json scene = {{"grains", 200},
+                      {"seed", 1},
+                      {"container", {{"shape", "box"}, {"width", 0.0}}},
+                      {"gravity", 9.81},
+                      {"material",
+                       {{"density", 2650.0},
+                        {"young_modulus", 0.0},
+                        {"poisson_ratio", 0.3},
+                        {"friction", 0.5},
+                        {"restitution", 0.2}}},
+                      {"size", frame.size},
+                      {"scale", frame.scale},
+                      {"shapes", std::move(list)}};
+  return json_document(scene);
+}
+
+}  // namespace
+
+std::string engine_names(EngineShapes shapes) {
+  std::string names;
+  for (const EngineRow& engine : engines()) {
+    if (!takes(engine, shapes)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(engine.name);
+  }
+  return names;
+}
+
+void check_engine(const std::string& engine, EngineShapes shapes) {
+  for (const EngineRow& row : engines()) {
+    if (row.name != engine) continue;
+    if (takes(row, shapes)) return;
+    refuse("\"" + engine + "\" takes no " +
+           (shapes == EngineShapes::Clumps ? "clumps. Use wscvt convex"
+                                           : "convex parts. Use wscvt clump") +
+           " with this engine, or one of " + engine_names(shapes) + ".");
+  }
+  refuse("There are no files for an engine \"" + engine + "\". Give one of " +
+         engine_names(shapes) + ".");
+}
+
+std::string_view engine_format(EngineShapes shapes) {
+  return shapes == EngineShapes::Clumps ? "csv" : "obj";
+}
+
+std::string write_engine_folder(const std::string& folder, const std::string& engine,
+                                EngineShapes shapes, const std::vector<EngineGrain>& grains,
+                                const FrameOptions& frame) {
+  check_engine(engine, shapes);
+  const std::filesystem::path in(folder);
+  for (const EngineRow& row : engines()) {
+    if (row.name != engine) continue;
+    write_file((in / "packing.py").string(), packing_script);
+    write_file((in / "run.py").string(), row.script);
+    if (row.program != nullptr) write_file((in / row.program_name).string(), row.program);
+    const std::filesystem::path scene = in / "scene.json";
+    std::error_code ignored;
+    if (!std::filesystem::exists(scene, ignored)) {
+      write_file(scene.string(), scene_text(grains, frame));
+    }
+    return row.command;
+  }
+  return "";
+}
+
+}  // namespace wscvt

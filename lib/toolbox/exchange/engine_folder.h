@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "toolbox/exchange/simulation_options.h"
+
+namespace wscvt {
+
+/// What an engine takes for a grain.
+enum class EngineShapes { Clumps, Parts };
+
+/// Returns the names of the engines that take these shapes, with commas between.
+std::string engine_names(EngineShapes shapes);
+
+/// Throws Error(InvalidInput), with the names, unless the engine takes these shapes.
+void check_engine(const std::string& engine, EngineShapes shapes);
+
+/// Returns the ending of the files of grains in the folder of an engine, without the point: "csv"
+/// for clumps, "obj" for parts. The files are in the principal frame.
+std::string_view engine_format(EngineShapes shapes);
+
+/// A grain of a folder.
+struct EngineGrain {
+  std::string name;  ///< as in grains.csv
+  std::string file;  ///< of its shape, in the folder
+};
+
+/// Writes what an engine needs to pack the grains of a folder: run.py, which starts the engine,
+/// packing.py, which it uses, and scene.json, with what a person changes: number of grains,
+/// container, materials. The folder has the grains' files and their table grains.csv already. A
+/// scene.json that is there stays, so that changes are not lost. `frame` has the size of the files.
+/// Returns the command that starts the engine in the folder. Throws Error: InvalidInput as
+/// check_engine; InputOutput.
+std::string write_engine_folder(const std::string& folder, const std::string& engine,
+                                EngineShapes shapes, const std::vector<EngineGrain>& grains,
+                                const FrameOptions& frame);
+
+}  // namespace wscvt

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Grains of convex parts of this folder in Bullet:
+
+    python3 run.py [COUNT]
+
+Compiles bullet_settle.cpp against Bullet's C++ library. Bullet's contact margins are made for bodies of
+decimetres, so the model has grains of 0.2 m in the mean, and times follow. See packing.py for scene.json.
+"""
+import math
+import resource
+import subprocess
+
+import packing
+from packing import np
+
+SIZE, GRAVITY = 0.2, 9.81  # of the model
+
+scene = packing.Scene()
+length = SIZE / scene.mean_diameter
+pace = math.sqrt(scene.mean_diameter / scene.gravity) / math.sqrt(SIZE / GRAVITY)  # time / the model's
+density = 2650 / scene.material["density"]
+sides = 4 if scene.shape == "box" else 32
+unit = 1 / density / length ** 5 / pace ** 2  # of energy
+rest = scene.energy_at_rest() / unit
+with open("packing.scene", "w") as file:
+    print(sides, length * scene.width / 2, scene.longest_time() / pace, scene.fall_time() / pace, rest,
+          math.sqrt(scene.material["friction"]), file=file)  # Bullet multiplies those of two bodies
+    for grain in scene.grains:
+        print(density * grain.mass * length ** 3, *(density * length ** 5 * grain.moments), *(length * grain.place),
+              *grain.turn, len(grain.shape.parts), file=file)
+        for vertices, _ in grain.shape.parts:
+            print(len(vertices), *(length * grain.scale * vertices).ravel(), file=file)
+subprocess.run(["g++", "-O2", "-isystem", "/usr/include/bullet", packing.FOLDER / "bullet_settle.cpp", "-o",
+                "./bullet_settle", "-lBulletDynamics", "-lBulletCollision", "-lLinearMath"], check=True)
+before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+lines = subprocess.run("./bullet_settle", check=True, capture_output=True, text=True).stdout.splitlines()
+words = [line.split() for line in lines]
+rows = np.array([[float(v) for v in w[1:]] for w in words if w[0] == "grain"])
+for grain, row in zip(scene.grains, rows):
+    grain.place, grain.turn = row[:3] / length, row[3:]
+packing.finish("Bullet", scene, [grain.parts() for grain in scene.grains], [grain.place for grain in scene.grains],
+               [(float(w[1]) * pace, float(w[2]) * unit) for w in words if w[0] == "energy"],
+               resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before,
+               [(int(w[1]), int(w[2])) for w in words if w[0] == "contact"])
