@@ -58,6 +58,52 @@ TEST(Templates, AllGrainsAreAtDistanceZero) {
   for (const double distance : all.reached.by_mass) EXPECT_NEAR(distance, 0.0, 1e-12);
 }
 
+// Four distributions alone leave the dependence to chance.
+TEST(Templates, DependOnEachOtherAsInTheSample) {
+  double error = 0.0;
+  int pairs = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    RandomStream random(seed, 0);
+    const int grains = 400;
+    Eigen::MatrixXd descriptors(grains, 4);
+    for (int k = 0; k < grains; ++k) {
+      const double common = random.normal();
+      for (int j = 0; j < 4; ++j) {
+        descriptors(k, j) = (j % 2 == 0 ? 1.0 : -1.0) * 0.7 * common + 0.7 * random.normal();
+      }
+    }
+    const std::vector<double> masses(grains, 1.0);
+    const SampleTemplates chosen = choose_templates(descriptors, masses, with(20), Execution(1));
+    const auto correlation = [&](int i, int j, const std::vector<std::size_t>& rows,
+                                 const std::vector<double>& weights) {
+      double a = 0.0, b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        const double x = descriptors(static_cast<Eigen::Index>(rows[k]), i);
+        const double y = descriptors(static_cast<Eigen::Index>(rows[k]), j);
+        a += weights[k] * x;
+        b += weights[k] * y;
+        aa += weights[k] * x * x;
+        bb += weights[k] * y * y;
+        ab += weights[k] * x * y;
+      }
+      return (ab - a * b) / std::sqrt((aa - a * a) * (bb - b * b));
+    };
+    std::vector<std::size_t> all(grains);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<double> equal(grains, 1.0 / grains);
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        error += std::abs(correlation(i, j, chosen.grains, chosen.by_number) -
+                          correlation(i, j, all, equal));
+        ++pairs;
+      }
+    }
+  }
+  // Measured: .02 with the sums and differences of descriptors, .1 without.
+  EXPECT_LT(error / pairs, 0.05);
+  RecordProperty("error", std::to_string(error / pairs));
+}
+
 TEST(Templates, GrainsBelongToTheNearestInAllDescriptorsAndDistancesAreThoseReached) {
   const MadeSample sample(90, 8);
   const SampleTemplates chosen =

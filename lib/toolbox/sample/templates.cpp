@@ -296,6 +296,28 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
   return best;
 }
 
+/// Adds the sum and the difference of each two descriptors, as further descriptors: distributions
+/// along the diagonals, which follow how two descriptors depend on each other. Each is divided by
+/// its own deviation.
+Eigen::MatrixXd with_pairs(const Eigen::MatrixXd& standard) {
+  const Index count = standard.cols();
+  Eigen::MatrixXd all(standard.rows(), count * count);
+  all.leftCols(count) = standard;
+  Index column = count;
+  for (Index i = 0; i < count; ++i) {
+    for (Index j = 0; j < i; ++j) {
+      for (const double sign : {1.0, -1.0}) {
+        const Eigen::VectorXd sum = standard.col(i) + sign * standard.col(j);
+        const double deviation =
+            std::sqrt(sum.squaredNorm() / static_cast<double>(standard.rows()));
+        // Of a descriptor that is given twice the difference is nothing.
+        all.col(column++) = deviation > 1e-6 ? Eigen::VectorXd(sum / deviation) : standard.col(i);
+      }
+    }
+  }
+  return all;
+}
+
 /// Scales columns to mean 0 and deviation 1. Throws for unusable inputs.
 Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vector<double>& masses,
                              const TemplateOptions& options) {
@@ -369,11 +391,13 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
     templates.by_number = equal;
     templates.by_mass = mass_shares;
   } else {
-    const StepFunctions steps(standard, mass_shares);
+    const Eigen::MatrixXd all = with_pairs(standard);
+    const StepFunctions steps(all, mass_shares);
     const Choice choice = exchanged(steps, options, execution);
     const std::vector<double> number =
-        absolute_weights(steps, 0, standard, sample_by_number, choice);
-    const std::vector<double> mass = absolute_weights(steps, 1, standard, sample_by_mass, choice);
+        absolute_weights(steps, 0, all, sample_distributions(all, equal), choice);
+    const std::vector<double> mass =
+        absolute_weights(steps, 1, all, sample_distributions(all, mass_shares), choice);
     std::vector<std::size_t> order(choice.grains.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(),

@@ -41,9 +41,11 @@ struct SampleTemplates {
   TemplateDistances random;  ///< of K random grains of equal weights: the mean of 20 choices
 };
 
-/// Chooses K grains of a sample and their weights, so that their distributions of the descriptors
-/// are close to the sample's. One grain is exchanged at a time. The weights are non-negative least
-/// squares on the distribution functions, and at last least absolute differences.
+/// Chooses K grains of a sample and their weights, so that their distributions of the descriptors,
+/// and of the sum and the difference of each two, are close to the sample's: the descriptors then
+/// depend on each other as in the sample. One grain is exchanged at a time. The weights are
+/// non-negative least squares on the distribution functions, and at last least absolute
+/// differences.
 ///
 /// `descriptors`: a row per grain, a column per descriptor, in any units. `masses`: one per grain,
 /// above 0. If K is the number of grains, all are chosen. The result for a seed does not depend on
