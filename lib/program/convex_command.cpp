@@ -27,7 +27,7 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html",
         "scans -k 4 --faces 60 -o run --size 0.02 --engine mujoco"},
        "The cuts are chosen on a remesh of 500 nodes, with the options of wscvt remesh.\n"
-       "The parts are hulls of pieces of the scan.",
+       "The parts are hulls of pieces of the scan, scaled together so that they keep the grain's volume.",
        true,
        true});
   app.add_option("-o,--output", arguments.outputs,

@@ -24,8 +24,10 @@ struct PartsResult {
 
 /// Makes convex parts of a scan, which is repaired as in remesh(). convex_parts chooses the cuts on
 /// a remesh with `remesh_options`, for which convex_node_count nodes are enough, and makes the
-/// parts of the scan. measure_parts measures their errors. The result does not depend on the number
-/// of threads. Throws Error as remesh and convex_parts do.
+/// parts of the scan. Then all parts are scaled together about the grain's centroid, so that their
+/// union has the grain's volume: a packing has the right porosity, and parts begin on both sides of
+/// the grain's surface instead of outside of it. measure_parts measures their errors. The result
+/// does not depend on the number of threads. Throws Error as remesh and convex_parts do.
 PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const ConvexOptions& options,
                        const Execution& execution = Execution());
 

@@ -8,6 +8,7 @@
 #include "toolbox/convex/convex_parts.h"
 #include "toolbox/convex/parts.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
@@ -83,6 +84,24 @@ double shared_volume(const Union& parts, const Execution& execution) {
   return shared * spacing * spacing * spacing;
 }
 
+/// Returns the volume of the union of all parts.
+double union_volume(const Union& parts, double shared) {
+  double volume = -shared;
+  for (const ConvexBody& body : parts.bodies()) volume += body.volume;
+  return volume;
+}
+
+/// Scales the parts together about the grain's centroid, so that their union has its volume. Hulls
+/// hold the grain and have more; hulls of few faces have less.
+void keep_volume(ConvexParts& parts, const ShapeDescriptors& grain, const Execution& execution) {
+  const Union all(parts);
+  const double scale =
+      portable::cbrt(grain.volume / union_volume(all, shared_volume(all, execution)));
+  for (IndexedMesh& part : parts) {
+    for (Vector3& p : part.points) p = grain.centroid + scale * (p - grain.centroid);
+  }
+}
+
 std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
   constexpr std::size_t samples = 20000;
   const double beyond = 1e-6 * (all.box().high - all.box().low).norm();
@@ -114,9 +133,8 @@ PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
   if (!(measures.grain_volume > 0.0)) {
     refuse("The grain encloses no positive volume. Give a closed mesh whose faces look outward.");
   }
-  for (const ConvexBody& body : all.bodies()) measures.parts_volume += body.volume;
   measures.shared_volume = shared_volume(all, execution);
-  measures.parts_volume -= measures.shared_volume;
+  measures.parts_volume = union_volume(all, measures.shared_volume);
 
   const MeshDistance to_grain(grain, execution);
   const std::vector<Vector3> points = outer_points(parts, all);
@@ -154,6 +172,7 @@ PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const Con
   result.scan = remeshed.scan;
   result.grain = std::move(remeshed.repaired_scan);
   result.parts = convex_parts(remeshed.mesh, result.grain, options, execution.part(0.3, 0.9));
+  keep_volume(result.parts, result.scan, execution.part(0.9, 0.9));
   result.measures = measure_parts(result.parts, result.grain, execution.part(0.9, 1.0));
   return result;
 }
