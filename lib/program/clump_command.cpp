@@ -26,6 +26,9 @@ struct AddClumpOption {
     const bool is_count = option.key == sphere_count_option.key;
     add_number(app, (is_count ? "-k,--" : "--") + std::string(option.key), value, option);
   }
+  void operator()(ClumpError& value) {
+    add_choice(app, "--" + std::string(EnumerationTable<ClumpError>::key), value);
+  }
   void operator()(bool& value, const FlagOption& option) {
     app.add_flag("--" + std::string(option.key), value, help_of(value, option));
   }
@@ -48,7 +51,8 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   app.add_option("-o,--output", arguments.outputs,
                  "Write the clump to this file. Endings: .csv (x,y,z,r), .multisphere (LIGGGHTS), "
                  ".py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump (a folder for MercuryDPM), "
-                 ".p3dat (PFC), .molecule (LAMMPS). May be given more than once. For several "
+                 ".p3dat (PFC), .molecule (LAMMPS), .clu (Kratos). May be given more than once. "
+                 "For several "
                  "scans: folder of the clumps and of the table grains.csv")
       ->type_name("FILE")
       ->required()

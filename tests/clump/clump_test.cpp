@@ -198,6 +198,41 @@ TEST(Clump, AllowedErrorIsMetByFewSpheres) {
   EXPECT_NE(short_of.warnings[0].text().find("--max-spheres"), std::string::npos);
 }
 
+// Each kind of error is met, and clumps with a fifth fewer spheres have more of it.
+TEST(Clump, AllowedErrorsOfVolumeInertiaAndFirstContactAreMet) {
+  const IndexedMesh scan = test::lumpy(3);
+  const auto error_of = [](ClumpError of, const ClumpResult& clump) {
+    if (of == ClumpError::Volume) return 100.0 * (1.0 - clump.intersection_over_union);
+    if (of == ClumpError::Inertia) return clump.united.error.inertia_percent;
+    return std::hypot(clump.contact.mean, clump.contact.scatter);
+  };
+  for (const ClumpError of : {ClumpError::Volume, ClumpError::Inertia, ClumpError::Contact}) {
+    ClumpOptions options;
+    options.error_of = of;
+    options.max_error_percent = of == ClumpError::Inertia ? 0.8 : 8.0;
+    options.most_spheres = 60;
+    const ClumpResult clump = make_clump(scan, options, Execution(2));
+    // The union's mesh in another frame has another grid.
+    EXPECT_LE(error_of(of, clump), options.max_error_percent + 0.05) << key_of(of);
+    ASSERT_GT(clump.spheres.size(), 1U) << key_of(of);
+    EXPECT_LT(clump.spheres.size(), 60U) << key_of(of);
+    EXPECT_TRUE(clump.warnings.empty()) << key_of(of);
+    // The inertia's error may be small with few spheres by chance.
+    if (of == ClumpError::Inertia) continue;
+    const ClumpResult fewer =
+        clump_of(scan, std::max(1, static_cast<int>(clump.spheres.size()) * 4 / 5));
+    EXPECT_GT(error_of(of, fewer), options.max_error_percent) << key_of(of);
+  }
+  ClumpOptions options;
+  options.error_of = ClumpError::Contact;
+  options.max_error_percent = 0.5;
+  options.most_spheres = 3;
+  const ClumpResult clump = make_clump(scan, options, Execution(2));
+  ASSERT_EQ(clump.warnings.size(), 1U);
+  EXPECT_NE(clump.warnings[0].text().find("first contact"), std::string::npos)
+      << clump.warnings[0].text();
+}
+
 TEST(Clump, MovesTurnsAndGrowsWithTheScan) {
   const IndexedMesh scan = bent_body();
   const ClumpResult clump = clump_of(scan, 6);

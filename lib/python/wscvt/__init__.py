@@ -265,8 +265,9 @@ def clump(vertices, faces=None, spheres=20, *, output=None, **options):
     clump("scan.ply", spheres=50), clump(mesh), clump(vertices, faces)
 
     spheres: their number, 1 to 1000.
-    max_error: allowed rms distance in % of the equivalent radius, instead of a number. max_spheres
-        then limits the number.
+    max_error: allowed error in %, instead of a number. max_spheres then limits the number.
+    error_of: "distance" (rms, in % of the equivalent radius), "volume" (not shared), "inertia" or
+        "contact" (first contact, in % of the equivalent radius).
     smallest_radius: of a sphere, in % of the equivalent radius.
     inside: keep all spheres inside the scan.
     remesh_nodes: nodes of a remesh whose error of first contact is compared; 0: no comparison.

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "toolbox/clump/sphere_mesh.h"
@@ -113,15 +114,66 @@ std::size_t group_count(const std::vector<Sphere>& spheres) {
   return groups;
 }
 
+/// Returns the distance of a sphere's far end from the origin, at least `reach`.
+double reach_of(const std::vector<Sphere>& spheres, double reach) {
+  for (const Sphere& sphere : spheres) {
+    reach = std::max(reach, sphere.centre.norm() + sphere.radius);
+  }
+  return reach;
+}
+
+double reach_of(const IndexedMesh& mesh) {
+  double reach = 0.0;
+  for (const Vector3& p : mesh.points) reach = std::max(reach, p.norm());
+  return reach;
+}
+
+double contact_percent(const ContactError& contact) {
+  return std::hypot(contact.mean, contact.scatter);
+}
+
+/// Returns the error of spheres that the option names, as it is reported; in %.
+double error_percent(ClumpError of, const IndexedMesh& unit, const ShapeDescriptors& shape,
+                     const std::vector<Sphere>& spheres, const Execution& execution) {
+  if (of == ClumpError::Volume) {
+    return 100.0 * (1.0 - intersection_over_union(unit, spheres, execution));
+  }
+  if (of == ClumpError::Inertia) {
+    const IndexedMesh surface = sphere_union_mesh(spheres, execution);
+    return mass_error(mass_properties(describe_shape(surface, execution)), shape, 1.0)
+        .inertia_percent;
+  }
+  const double reach = 1.2 * reach_of(spheres, reach_of(unit));
+  return contact_percent(
+      contact_error(ContactHeights(spheres, reach, execution).distances(execution),
+                    ContactHeights(unit, reach, execution).distances(execution)));
+}
+
+/// Returns what the allowed error is held against, in %, and its name.
+std::pair<double, std::string> allowed_error(const ClumpResult& result) {
+  switch (result.options.error_of) {
+    case ClumpError::Volume:
+      return {100.0 * (1.0 - result.intersection_over_union),
+              "volume that is only in one of grain and clump is "};
+    case ClumpError::Inertia:
+      return {result.united.error.inertia_percent, "error of the inertia is "};
+    case ClumpError::Contact:
+      return {contact_percent(result.contact), "error of first contact is "};
+    case ClumpError::Distance:
+      break;
+  }
+  return {100.0 * result.rms_distance / result.equivalent_radius, "rms distance is "};
+}
+
 void add_warnings(ClumpResult& result) {
   append_repair_warnings(result.input, "made a clump", result.warnings);
   const ClumpOptions& options = result.options;
-  const double error = 100.0 * result.rms_distance / result.equivalent_radius;
+  const auto [error, name] = allowed_error(result);
   const std::string count =
       std::to_string(result.spheres.size()) + (result.spheres.size() == 1 ? " sphere" : " spheres");
   if (options.max_error_percent > 0.0 && error > options.max_error_percent) {
-    result.warnings.push_back("With " + count + " the rms distance is " + format_number(error, 3) +
-                              " % of the equivalent radius, more than the allowed " +
+    result.warnings.push_back("With " + count + " the " + name + format_number(error, 3) +
+                              " %, more than the allowed " +
                               format_typed(options.max_error_percent) + " %. Give a larger " +
                               mention("max-spheres") + ", or allow a larger error.");
   } else if (options.max_error_percent == 0.0 &&
@@ -164,12 +216,8 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
   result.largest_distance = frame.radius * distance.largest;
   execution.report(0.3, "Measuring the clump");
   result.intersection_over_union = intersection_over_union(unit, spheres, execution);
-  double reach = 0.0;
-  for (const Vector3& p : unit.points) reach = std::max(reach, p.norm());
-  for (const Sphere& sphere : spheres) {
-    reach = std::max(reach, sphere.centre.norm() + sphere.radius);
-  }
-  reach *= 1.2;  // a remesh of few nodes extends farther
+  // A remesh of few nodes extends farther.
+  const double reach = 1.2 * reach_of(spheres, reach_of(unit));
   execution.report(0.5, "Measuring the clump");
   const std::vector<double> scan = ContactHeights(unit, reach, execution).distances(execution);
   result.contact =
@@ -186,6 +234,7 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
 void check_clump_options(const ClumpOptions& options) {
   require_in_range(options.sphere_count, sphere_count_option);
   require_in_range(options.max_error_percent, clump_error_option);
+  require_valid(options.error_of);
   require_in_range(options.most_spheres, most_spheres_option);
   require_in_range(options.smallest_radius_percent, smallest_radius_option);
   require_in_range(options.compared_nodes, compared_nodes_option);
@@ -211,7 +260,13 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
 
   const UnitFrame frame(result.scan);
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);
-  FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8));
+  std::function<double(const std::vector<Sphere>&)> error;
+  if (options.error_of != ClumpError::Distance) {
+    error = [&, shape = describe_shape(unit, execution)](const std::vector<Sphere>& spheres) {
+      return error_percent(options.error_of, unit, shape, spheres, execution.part(0.8, 0.8));
+    };
+  }
+  FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8), error);
   measure(unit, fitted.spheres, frame, result, execution.part(0.8, 1.0));
   // Rounding must not push a sphere outside that touches the surface from within.
   const double shrink = options.inside ? 1.0 - 1e-9 : 1.0;

@@ -67,9 +67,11 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
 /// A fit to which spheres are added.
 class Growth {
  public:
-  Growth(const IndexedMesh& grain, const ClumpOptions& options, const Execution& execution)
+  Growth(const IndexedMesh& grain, const ClumpOptions& options, const Execution& execution,
+         const std::function<double(const std::vector<Sphere>&)>& error_percent)
       : options_(options),
         execution_(execution),
+        error_percent_(error_percent),
         smallest_(std::max(least_radius, 0.01 * options.smallest_radius_percent)),
         surface_(grain, execution),
         judged_(area_uniform_samples(grain, judged)),
@@ -78,36 +80,58 @@ class Growth {
         fit_(begin(grain)) {}
 
   FittedSpheres run() {
-    const bool is_target = options_.max_error_percent > 0.0;
-    const auto most =
-        static_cast<std::size_t>(is_target ? options_.most_spheres : options_.sphere_count);
     FittedSpheres result;
-    std::size_t next_stage = 1;
     while (true) {
-      const std::size_t count = fit_.spheres().size();
-      if (count >= next_stage || count >= most) {
-        const double error = rms_distance(let_down(fit_));
-        result.stages.push_back({count, error});
-        next_stage = count + std::max<std::size_t>(1, count / (is_target ? 10 : 4));
-        if (is_target && 100.0 * error <= options_.max_error_percent) break;
+      grow(result.stages);
+      const SphereFit held = fit_;
+      relocate();
+      fit_ = let_down(std::move(fit_));
+      for (double before = 2.0 * fit_.energy(); fit_.energy() < 0.9999 * before;) {
+        before = fit_.energy();
+        sweep(fit_, 10);
       }
-      if (count >= most || !add_sphere()) break;
-      execution_.report(0.9 * static_cast<double>(count) / static_cast<double>(most), stage_name);
+      result.spheres = fit_.spheres();
+      if (options_.inside) keep_inside(result.spheres);
+      result.stages.back() = {result.spheres.size(),
+                              union_distance(judged_, result.spheres, execution_).root_mean_square};
+      if (!is_target() || held.spheres().size() >= most_spheres() || meets(result.spheres)) break;
+      // Refined spheres have a smaller distance, but may have a larger error of another kind.
+      fit_ = held;
+      next_judging_ = 0;
+      if (!add_sphere()) break;
     }
-    relocate();
-    fit_ = let_down(std::move(fit_));
-    for (double before = 2.0 * fit_.energy(); fit_.energy() < 0.9999 * before;) {
-      before = fit_.energy();
-      sweep(fit_, 10);
-    }
-    result.spheres = fit_.spheres();
-    if (options_.inside) keep_inside(result.spheres);
-    result.stages.back() = {result.spheres.size(),
-                            union_distance(judged_, result.spheres, execution_).root_mean_square};
     return result;
   }
 
  private:
+  bool is_target() const { return options_.max_error_percent > 0.0; }
+  std::size_t most_spheres() const {
+    return static_cast<std::size_t>(is_target() ? options_.most_spheres : options_.sphere_count);
+  }
+  bool meets(const std::vector<Sphere>& spheres) const {
+    const double error =
+        error_percent_ ? error_percent_(spheres)
+                       : 100.0 * union_distance(judged_, spheres, execution_).root_mean_square;
+    return error <= options_.max_error_percent;
+  }
+
+  /// Adds spheres until they are enough.
+  void grow(std::vector<ClumpStage>& stages) {
+    std::size_t next_stage = fit_.spheres().size();
+    while (true) {
+      const std::size_t count = fit_.spheres().size();
+      if (count >= next_stage || count >= most_spheres()) {
+        const std::vector<Sphere> spheres = let_down(fit_).spheres();
+        stages.push_back({count, union_distance(judged_, spheres, execution_).root_mean_square});
+        next_stage = count + std::max<std::size_t>(1, count / (is_target() ? 10 : 4));
+        if (is_target() && meets(spheres)) break;
+      }
+      if (count >= most_spheres() || !add_sphere()) break;
+      execution_.report(0.9 * static_cast<double>(count) / static_cast<double>(most_spheres()),
+                        stage_name);
+    }
+  }
+
   SphereFit begin(const IndexedMesh& grain) {
     const InscribedSphere largest = largest_inscribed_sphere(grain, execution_);
     if (options_.inside && largest.radius < smallest_) {
@@ -116,9 +140,7 @@ class Growth {
              mention("smallest-radius") + ". Give a smaller " + mention("smallest-radius") +
              ", or leave out " + mention("inside") + ".");
     }
-    const bool is_target = options_.max_error_percent > 0.0;
-    const auto count =
-        static_cast<std::size_t>(is_target ? options_.most_spheres : options_.sphere_count);
+    const std::size_t count = most_spheres();
     // A sphere has four unknowns, and none of them may follow single samples.
     const std::vector<SurfaceSample> samples =
         surface_samples(grain, std::max<std::size_t>(4000, 80 * count));
@@ -234,12 +256,9 @@ class Growth {
     return fit;
   }
 
-  double rms_distance(const SphereFit& fit) const {
-    return union_distance(judged_, fit.spheres(), execution_).root_mean_square;
-  }
-
   const ClumpOptions& options_;
   const Execution& execution_;
+  const std::function<double(const std::vector<Sphere>&)>& error_percent_;
   double smallest_;  ///< radius
   MeshDistance surface_;
   std::vector<Vector3> judged_;
@@ -281,9 +300,10 @@ UnionDistance union_distance(const std::vector<Vector3>& points, const std::vect
 }
 
 FittedSpheres fit_spheres(const IndexedMesh& unit_grain, const ClumpOptions& options,
-                          const Execution& execution) {
+                          const Execution& execution,
+                          const std::function<double(const std::vector<Sphere>&)>& error_percent) {
   execution.report(0.0, stage_name);
-  return Growth(unit_grain, options, execution).run();
+  return Growth(unit_grain, options, execution, error_percent).run();
 }
 
 }  // namespace wscvt

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "toolbox/clump/clump_options.h"
@@ -32,10 +33,14 @@ struct FittedSpheres {
 /// `options.inside` spheres stay inside. The result has fewer spheres than asked for only if no
 /// more of the smallest radius fit inside.
 ///
+/// With an allowed error, `error_percent` returns the error of spheres; empty: the rms distance. If
+/// the refined spheres do not meet it, more are added.
+///
 /// The result does not depend on the number of threads. Throws Error(InvalidInput) if nothing is
 /// inside or no sphere of the smallest radius fits in; Error(Cancelled).
-FittedSpheres fit_spheres(const IndexedMesh& unit_grain, const ClumpOptions& options,
-                          const Execution& execution);
+FittedSpheres fit_spheres(
+    const IndexedMesh& unit_grain, const ClumpOptions& options, const Execution& execution,
+    const std::function<double(const std::vector<Sphere>&)>& error_percent = {});
 
 /// Root mean square and largest absolute distance of points to the union of spheres: the minimum of
 /// |p - c| - r over the spheres, which is exact outside the union.

@@ -6,12 +6,37 @@
 
 namespace wscvt {
 
+/// What the allowed error of a clump is an error of.
+enum class ClumpError {
+  Distance,  ///< rms distance from scan to clump
+  Volume,    ///< volume that is only in one of grain and clump
+  Inertia,   ///< inertia of the union
+  Contact,   ///< distance at first contact
+};
+
+template <>
+struct EnumerationTable<ClumpError> {
+  static constexpr std::string_view key = "error-of";
+  static constexpr std::string_view subject = "error of a clump";
+  static constexpr Enumerator<ClumpError> rows[] = {
+      {ClumpError::Distance, "distance", "distance",
+       "rms distance from scan to clump, in % of the equivalent radius"},
+      {ClumpError::Volume, "volume", "volume",
+       "volume that is in one of grain and clump, in % of the volume that is in any of them"},
+      {ClumpError::Inertia, "inertia", "inertia",
+       "inertia of the union of the spheres, in % of the grain's"},
+      {ClumpError::Contact, "contact", "first contact",
+       "rms error of the distance at first contact of two clumps, in % of the equivalent radius"},
+  };
+};
+
 /// Options of the clump of a grain: overlapping spheres that move as one body.
 struct ClumpOptions {
   int sphere_count = 20;  ///< K; not used with an allowed error
-  /// Allowed rms distance from scan to clump, in % of the equivalent radius. The clump gets the
-  /// fewest spheres that meet it, to within a tenth of their number. 0: sphere_count spheres.
+  /// Allowed error, in %, of what error_of names. The clump gets the fewest spheres that meet it,
+  /// to within a tenth of their number. 0: sphere_count spheres.
   double max_error_percent = 0.0;
+  ClumpError error_of = ClumpError::Distance;
   int most_spheres = 200;  ///< limit of the search for the allowed error
   /// Smallest radius of a sphere, in % of the equivalent radius. The time step depends on it.
   double smallest_radius_percent = 0.0;
@@ -31,8 +56,7 @@ inline constexpr NumberOption<double> clump_error_option = {
     0.0,
     100.0,
     Ends::NotMaximum,
-    "use the fewest spheres with at most this rms distance from scan to clump, in % of the "
-    "equivalent radius; 0: use the given number of spheres"};
+    "use the fewest spheres with at most this error, in %; 0: use the given number of spheres"};
 inline constexpr NumberOption<int> most_spheres_option = {"max-spheres",
                                                           "max. number of spheres",
                                                           1,
@@ -58,6 +82,7 @@ template <class Options, class Visitor>
 void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.sphere_count, sphere_count_option);
   visitor(options.max_error_percent, clump_error_option);
+  visitor(options.error_of);
   visitor(options.most_spheres, most_spheres_option);
   visitor(options.smallest_radius_percent, smallest_radius_option);
   visitor(options.inside, inside_option);

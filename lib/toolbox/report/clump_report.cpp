@@ -31,6 +31,9 @@ struct OptionMembers {
   void operator()(const bool& value, const FlagOption& option) {
     members[std::string(option.key)] = value;
   }
+  void operator()(const ClumpError& value) {
+    members[std::string(EnumerationTable<ClumpError>::key)] = key_of(value);
+  }
 };
 
 double percent_of_radius(const ClumpResult& clump, double length) {
@@ -236,7 +239,9 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   std::vector<Figure> curves = {figures.distributions.back()};
   if (points.size() > 1) {
     curves.push_back({logarithmic_figure("number of spheres", "rms distance, %", std::move(points),
-                                         clump.options.max_error_percent),
+                                         clump.options.error_of == ClumpError::Distance
+                                             ? clump.options.max_error_percent
+                                             : 0.0),
                       "Rms distance from scan to clump, in % of the equivalent radius, for fewer "
                       "spheres."});
   }
