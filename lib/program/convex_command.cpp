@@ -25,9 +25,10 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
        "Divide a grain into convex parts, for physics engines",
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html",
-        "scans -k 4 --faces 60 -o run --size 0.02 --engine mujoco"},
+        "scans -k 4 --faces 60 -o bodies --size 0.02 --engine mujoco"},
        "The cuts are chosen on a remesh of 500 nodes, with the options of wscvt remesh.\n"
-       "The parts are hulls of pieces of the scan, scaled together so that they keep the grain's volume.",
+       "The parts are hulls of pieces of the scan, scaled together so that they keep the grain's "
+       "volume.",
        true,
        true});
   app.add_option("-o,--output", arguments.outputs,
@@ -49,8 +50,9 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
   add_common_arguments(app, arguments.common);
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name(false, true);
-    for (const char* finer : {"--scale", "--method", "--weighting", "--placement", "--edge-ratio",
-                              "--max-error", "--distances", "--threads", "--overwrite"}) {
+    for (const char* finer :
+         {"--hull-distance", "--scale", "--method", "--weighting", "--placement", "--edge-ratio",
+          "--max-error", "--distances", "--threads", "--overwrite"}) {
       if (name.find(finer) != std::string::npos) app.get_option(finer)->group(finer_settings);
     }
   }

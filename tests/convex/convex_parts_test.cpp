@@ -8,9 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "toolbox/convex/convex_body.h"
+#include "toolbox/convex/parts.h"
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/pi.h"

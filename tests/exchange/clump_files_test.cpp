@@ -15,6 +15,7 @@
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/next_prime.h"
+#include "wscvt/base/pi.h"
 
 namespace wscvt {
 namespace {
@@ -241,6 +242,40 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
       ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });
   EXPECT_NE(sentence.find("x, y, z and r"), std::string::npos) << sentence;
   EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
+}
+
+// The words are those of Kratos's public clusters; it reads numbers after them, line by line.
+TEST_F(ClumpFiles, KratosHasTheGrainsVolumeAndInertiaPerUnitMass) {
+  FrameOptions frame;
+  frame.size = 2.0;
+  const std::string text = written("my grain.clu", frame);
+  const auto after = [&](const std::string& word) {
+    const std::size_t begin = text.find(word + "\n");
+    EXPECT_NE(begin, std::string::npos) << word;
+    return numbers_of(text.substr(begin + word.size() + 1));
+  };
+  EXPECT_NE(text.find("Name\nmy grain\n"), std::string::npos) << text;
+  const std::vector<double> spheres = after("Begin centers_and_radii");
+  ASSERT_EQ(spheres.size(), 12U);
+  const std::vector<double> volume = after("Volume");
+  ASSERT_EQ(volume.size(), 1U);
+  EXPECT_NEAR(volume[0], 4.0 / 3.0 * pi, 1e-9);
+  const std::vector<double> inertia = after("Inertia per unit mass");
+  ASSERT_EQ(inertia.size(), 3U);
+  // A sphere of radius 1 has .4, and no body of its volume has less in the mean.
+  EXPECT_GT(inertia[0] + inertia[1] + inertia[2], 1.2);
+  const MassProperties grain = mass_properties(made_clump().scan);
+  const double squared = std::pow(1.0 / made_clump().equivalent_radius, 2);
+  EXPECT_NEAR(inertia[0], grain.principal_moments[0] / grain.volume * squared, 1e-9);
+  // The ball about the centroid holds each sphere and touches one.
+  const double size = after("Size").front();
+  double reach = 0.0;
+  for (std::size_t k = 0; k < 12; k += 4) {
+    reach = std::max(reach,
+                     Vector3(spheres[k], spheres[k + 1], spheres[k + 2]).norm() + spheres[k + 3]);
+  }
+  EXPECT_NEAR(size, 2.0 * reach, 1e-12);
+  EXPECT_EQ(after("Particle_center_and_diameter").at(3), size);
 }
 
 TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {

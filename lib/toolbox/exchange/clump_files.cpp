@@ -173,6 +173,23 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
          numbers(moments(clump), " ") + " 0 0 0\n";
 }
 
+/// Returns a cluster of Kratos's DEM application. Its mesher takes the ball about the cluster.
+std::string kratos_cluster(const FramedClump& clump, const std::string& path) {
+  double reach = 0.0;
+  for (const Sphere& sphere : clump.spheres) {
+    reach = std::max(reach, sphere.centre.norm() + sphere.radius);
+  }
+  std::vector<double> per_mass = moments(clump);
+  for (double& moment : per_mass) moment /= clump.mass.volume;
+  const std::string size = format_exact(2.0 * reach);
+  return "// made by " + made_by_text() + "; volume and inertia are the grain's\n\nName\n" +
+         std::filesystem::path(path).stem().string() + "\n\nBegin centers_and_radii\n" +
+         rows_of(clump.spheres, " ") +
+         "End centers_and_radii\n\nParticle_center_and_diameter\n0 0 0 " + size + "\n\nSize\n" +
+         size + "\n\nVolume\n" + format_exact(clump.mass.volume) + "\n\nInertia per unit mass\n" +
+         numbers(per_mass, "\n") + "\n";
+}
+
 /// LAMMPS adds the masses of atoms for the energies that it prints, but uses the body's mass and
 /// moments from the head of the file.
 std::string lammps_molecule(const FramedClump& clump, double density) {
@@ -235,7 +252,7 @@ std::string clump_ending(const std::string& path) {
 
 const std::vector<std::string>& clump_endings() {
   static const std::vector<std::string> endings = {
-      ".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule"};
+      ".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule", ".clu"};
   return endings;
 }
 
@@ -246,7 +263,7 @@ void check_clump_path(const std::string& path) {
   refuse("\"" + path +
          "\" does not have the ending of a clump format. Give a name that ends in .csv, "
          ".multisphere (LIGGGHTS), .py (Yade), .chrono.csv (Chrono DEM-Engine), .mclump "
-         "(MercuryDPM), .p3dat (PFC) or .molecule (LAMMPS).");
+         "(MercuryDPM), .p3dat (PFC), .molecule (LAMMPS) or .clu (Kratos).");
 }
 
 std::vector<std::string> files_of_clump(const std::string& path) {
@@ -280,6 +297,8 @@ void write_clump(const std::string& path, const ClumpResult& clump, const FrameO
     write_mercury(path, framed);
   } else if (ending == ".molecule") {
     write_file(path, lammps_molecule(framed, density));
+  } else if (ending == ".clu") {
+    write_file(path, kratos_cluster(framed, path));
   } else {
     write_file(path, pfc_command(framed, path));
   }

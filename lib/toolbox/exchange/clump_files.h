@@ -19,6 +19,7 @@ namespace wscvt {
 //   .mclump       MercuryDPM: a folder like the output of its tool MClump
 //   .p3dat        PFC: the command "clump template create"
 //   .molecule     LAMMPS: a molecule for fix rigid/small, with its spheres as atoms of type 1
+//   .clu          Kratos: a cluster of its DEM application
 // All but .csv are in the grain's principal axes about its centroid, in which its tensor of inertia
 // is diagonal. They contain the grain's mass properties at unit density; .molecule at the chosen
 // density, because LAMMPS cannot change it.

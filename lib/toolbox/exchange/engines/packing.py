@@ -243,7 +243,7 @@ def is_inside(body, points):
 
 
 def porosity(scene, bodies, heights):
-    """Share of pores in the lower half of the packing, the walls' gaps included: below the mean height of
+    """Fraction of pores in the lower half of the packing, the walls' gaps included: below the mean height of
     the mass, at 20,000 random places."""
     masses = [grain.mass for grain in scene.grains]
     high = float(np.average(heights, weights=masses))
