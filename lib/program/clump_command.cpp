@@ -60,8 +60,9 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   add_scan_inputs(app, arguments.sample, "clumps", arguments.job.format, EngineShapes::Clumps);
   AddClumpOption add{app};
   for_each_clump_option(arguments.job.clump, add);
-  for (const std::string_view key : {points_option.key, shrink_wrap_option.key,
-                                     repaired_area_limit_option.key, most_spheres_option.key}) {
+  for (const std::string_view key :
+       {points_option.key, shrink_wrap_option.key, repaired_area_limit_option.key,
+        most_spheres_option.key, compared_nodes_option.key}) {
     app.get_option("--" + std::string(key))->group(finer_settings);
   }
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame)
