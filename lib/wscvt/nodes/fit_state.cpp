@@ -31,6 +31,10 @@ constexpr double even_local_share = 0.8;
 constexpr double usual_spring = 0.04;
 constexpr double usual_ring = 0.13;
 constexpr double usual_local_share = 0.9;
+/// Long edges cut a rim's curve, so its nodes reach out. Close meshes have more nodes there: at
+/// ratio 1.4, this reach makes rms of 23 thin bodies 10 % larger; at the evenest, none makes it 2 %
+/// larger.
+constexpr double even_rim_reach = 0.03;
 /// With a wanted density, so that the fit does not even it out.
 constexpr double weighted_local_share = 0.5;
 
@@ -67,6 +71,7 @@ FitDial fit_dial(double ratio, bool weighted) {
   dial.ring_stiffness = blend(weak, even_ring, usual_ring);
   dial.local_share =
       weighted ? weighted_local_share : blend(weak, even_local_share, usual_local_share);
+  dial.rim_reach = even_share * even_rim_reach;
   dial.damping = portable::pow(10.0, -3.0 - 2.0 * std::min(0.5, x));
   dial.polishes = x > 0.06;
   return dial;
@@ -613,11 +618,9 @@ bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at) {
 }
 
 double fan_sharpness(const FitFan& fan, const Vector3& at) {
-  double sharpest = 0.0;
-  const std::size_t count = fan.ring.size();
-  for (std::size_t j = 0; j < count; ++j) {
-    sharpest =
-        std::max(sharpest, largest_corner_cosine(at, fan.ring[j], fan.ring[(j + 1) % count]));
+  double sharpest = largest_corner_cosine(at, fan.ring.back(), fan.ring.front());
+  for (std::size_t j = 1; j < fan.ring.size(); ++j) {
+    sharpest = std::max(sharpest, largest_corner_cosine(at, fan.ring[j - 1], fan.ring[j]));
   }
   return sharpest;
 }

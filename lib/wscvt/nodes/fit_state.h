@@ -35,6 +35,7 @@ struct FitDial {
   double ring_stiffness = 0.0;    ///< of a node towards the middle of its ring, in the same unit
   double local_share = 0.0;       ///< weight of the surrounding mean edge in a rest length, against
                                   ///< the mesh's mean edge
+  double rim_reach = 0.0;         ///< of a rim's nodes beyond their samples, in mean edges
   double damping = 0.0;           ///< of steps
   bool polishes = false;          ///< whether single nodes are moved after a round
 };

@@ -23,10 +23,9 @@ constexpr double own_weight = 0.2;
 constexpr double own_plane = 0.05;
 /// A node farther than this from all its samples, in mean edges, is pulled to the nearest sample.
 constexpr double leash = 0.2;
-/// A node at a rim that lies farther out than this beyond its samples, in mean edges, is pulled
-/// back with this weight. The planes of a wedge's sheets meet beyond its rounded rim: without it,
-/// rms of 19 thin bodies is 6 % larger in the mean. A third or three times the weight costs 2 %.
-constexpr double rim_reach = 0.03;
+/// A node at a rim that lies farther out than the dial's reach is pulled back with this weight. The
+/// planes of a wedge's sheets meet beyond its rounded rim: without it, rms of 19 thin bodies is 6 %
+/// larger in the mean. A third or three times the weight costs 2 %.
 constexpr double rim_support = 0.3;
 /// Added to a triangle's longest / shortest edge less one, so that springs stay finite.
 constexpr double softest_triangle = 0.1;
@@ -369,7 +368,8 @@ class FitEquations {
 
   void add_rim_support(std::size_t i, double outmost) {
     const auto& [normal, rim, along] = shapes_[i];
-    const double beyond = normal.dot(mesh_.points[i]) - outmost - rim_reach * state_.edge;
+    const double beyond =
+        normal.dot(mesh_.points[i]) - outmost - state_.dial.rim_reach * state_.edge;
     if (rim == 0.0 || beyond <= 0.0) return;
     const double weight = rim_support * rim;
     diagonal_[i] += weight * normal * normal.transpose();
