@@ -128,7 +128,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  program::fill_closed_streams();
+  const program::StandardStreams streams;
   program::ignore_file_size_signal();
   try {
     return run(argc, argv);

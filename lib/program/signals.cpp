@@ -2,9 +2,39 @@
 #include "signals.h"
 
 #include <csignal>
+#ifdef _WIN32
+#include <windows.h>
+
+#include <atomic>
+#else
 #include <initializer_list>
+#endif
 
 namespace wscvt::program {
+
+#ifdef _WIN32
+
+namespace {
+
+// Windows calls the function below in a thread of its own.
+std::atomic<int> noted = 0;
+
+BOOL WINAPI note(DWORD event) {
+  const int number = event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT ? SIGINT : SIGTERM;
+  // After the second one, Windows ends the program.
+  if (int none = 0; !noted.compare_exchange_strong(none, number)) return FALSE;
+  // When a console is closed, the program ends with this function. It has five seconds.
+  if (number == SIGTERM) Sleep(5000);
+  return TRUE;
+}
+
+}  // namespace
+
+void note_signals() { SetConsoleCtrlHandler(note, TRUE); }
+
+void ignore_file_size_signal() {}
+
+#else
 
 namespace {
 
@@ -32,6 +62,8 @@ void note_signals() {
 }
 
 void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
+
+#endif
 
 int noted_signal() { return noted; }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/job/grain_run.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -16,6 +14,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/system_files.h"
 
 namespace wscvt {
 
@@ -105,7 +104,7 @@ GrainRow GrainQueue::row_alone(std::size_t grain, std::unique_lock<std::mutex>& 
   if (stopped_) throw GivenUp();
   ++at_work_;
   lock.unlock();
-  ::malloc_trim(0);  // returns memory of the other threads' grains to the system
+  system_files::return_free_memory();  // of the other threads' grains
   std::exception_ptr thrown;
   GrainRow row;
   try {

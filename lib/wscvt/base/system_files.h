@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-/// What the library asks of the operating system about files, where the C++ library has no answer.
-/// The sources of this header, one for POSIX and one for Windows, contain all such calls of the
-/// core and of the toolbox. Names of files are UTF-8. This header is not public.
+/// What the library asks of the operating system, mostly about files, where the C++ library has no
+/// answer. The sources of this header, one for POSIX and one for Windows, contain all such calls of
+/// the core and of the toolbox. Names of files are UTF-8. This header is not public.
 namespace wscvt::system_files {
 
 /// What is at a path.
@@ -92,5 +92,8 @@ class LockedFile {
 /// Returns the existing files that match a pattern with *, ? and [...], sorted by bytes. No star
 /// matches the point at the beginning of a name.
 std::vector<std::string> matching_files(const std::string& pattern);
+
+/// Returns freed memory to the system, if the C library keeps it.
+void return_free_memory();
 
 }  // namespace wscvt::system_files

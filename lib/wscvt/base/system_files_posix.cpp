@@ -10,6 +10,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "wscvt/base/system_files.h"
 
@@ -140,6 +143,12 @@ std::vector<std::string> matching_files(const std::string& pattern) {
   }
   ::globfree(&found);
   return files;
+}
+
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 }  // namespace wscvt::system_files

@@ -230,6 +230,8 @@ std::vector<std::string> matching_files(const std::string& pattern) {
   return files;
 }
 
+void return_free_memory() {}
+
 }  // namespace wscvt::system_files
 
 #endif
