@@ -55,6 +55,8 @@ TEST(Option, TextsSayNothingOfALimitThatThereIsNot) {
   EXPECT_EQ(range_text(NumberOption<int>{"n", "n", 0, no_limit}), "0 or more");
   EXPECT_EQ(range_text(NumberOption<double>{"n", "n", 0.0, infinity, Ends::NotMinimum}), "above 0");
   EXPECT_EQ(range_text(NumberOption<double>{"n", "n", -3.0, 1.5}), "-3 to 1.5");
+  EXPECT_EQ(range_text(NumberOption<double>{"n", "n", 0.0, 1.5, Ends::NotMinimum}),
+            "above 0 and at most 1.5");
   const NumberOption<std::uint64_t> seed = {"seed", "seed", 0,
                                             std::numeric_limits<std::uint64_t>::max()};
   EXPECT_EQ(range_text(seed), "0 or more");

@@ -44,7 +44,7 @@ const std::vector<OptionCase>& option_cases() {
       {"max-overhang", 1.5, "100", "from 0 to 99", published},
       {"points", true, "perhaps", "points"},
       {"shrink-wrap", 25.0, "51", "from 0 to 50"},
-      {"contact-radius", 1.2, "0", "above 0 and 100"},
+      {"contact-radius", 1.2, "0", "above 0 and at most 100"},
       {"placement", "on-surface", "off", "fitted, on-surface or contact-fit"},
       {"edge-ratio", 1.25, "1", "from 1.08 to 1.6"},
       {"distances", true, "perhaps", "distances"},

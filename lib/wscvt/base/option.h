@@ -184,15 +184,19 @@ Sentence mention(Enumeration value) {
 std::string capitalised(std::string_view text);
 
 /// Returns the range as text: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and
-/// below 2".
+/// below 2", "above 0 and at most 2".
 template <class Number>
 std::string range_text(const NumberOption<Number>& option) {
   const std::string minimum = typed_text(option.minimum);
   if (!option.has_maximum()) {
     return option.excludes_minimum() ? "above " + minimum : minimum + " or more";
   }
-  return (option.excludes_minimum() ? "above " + minimum + " and " : minimum + " to ") +
-         (option.excludes_maximum() ? "below " : "") + typed_text(option.maximum);
+  const std::string maximum = typed_text(option.maximum);
+  if (option.excludes_minimum()) {
+    return "above " + minimum + " and " + (option.excludes_maximum() ? "below " : "at most ") +
+           maximum;
+  }
+  return minimum + " to " + (option.excludes_maximum() ? "below " : "") + maximum;
 }
 
 /// Returns the message that refuses a value.
