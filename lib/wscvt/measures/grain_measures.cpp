@@ -29,7 +29,8 @@ MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
     CheckedMesh checked = check_mesh(std::move(grain.mesh), MeshCheckOptions(), execution);
     const DetailedDescriptors descriptors =
         describe_shape_in_detail(checked.mesh, options, execution);
-    return {std::move(grain.name), std::move(checked), descriptors};
+    const SurfaceTexture texture = surface_texture(checked.mesh);
+    return {std::move(grain.name), std::move(checked), descriptors, texture};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
     throw Error(error.code(), "'" + grain.name + "': " + error.sentence());
@@ -89,7 +90,11 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
                         grain.name + "' was measured.");
   }
   const MeshCheckReport& report = grain.checked.report;
-  if (report.has_voxel_steps) sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
+  if (grain.texture.kind != Texture::None) {
+    sentences.push_back(texture_sentence(grain.texture, "'" + grain.name + "'"));
+  } else if (report.has_voxel_steps) {
+    sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
+  }
   if (report.stray_distance > 0.0) {
     sentences.push_back(stray_vertex_sentence(report) + " Check that it belongs to the grain.");
   }

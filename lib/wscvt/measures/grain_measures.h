@@ -9,6 +9,7 @@
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/measures/surface_texture.h"
 #include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/repair/scan_options.h"
 
@@ -25,6 +26,7 @@ struct MeasuredGrain {
   std::string name;
   CheckedMesh checked;
   DetailedDescriptors descriptors;
+  SurfaceTexture texture = {};
 };
 
 /// A grain and an optional reference for errors and distances.
