@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "toolbox/volume/label_grains.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/readable_text.h"
 
@@ -86,6 +88,45 @@ py::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles) {
     }
   }
   return array;
+}
+
+std::unique_ptr<LabelVolume> VolumeOfArray::open() const {
+  VolumeArray numbers;
+  numbers.numbers = array.data();
+  numbers.counts.assign(array.shape(), array.shape() + array.ndim());
+  numbers.type = type;
+  return open_array(numbers, choice, name);
+}
+
+VolumeOfArray volume_of(const py::object& argument, const std::string& name,
+                        const std::array<double, 3>& voxel_size) {
+  for (const double length : voxel_size) require_in_range(length, voxel_size_option);
+  VolumeOfArray volume;
+  volume.array = py::array::ensure(argument, py::array::c_style);
+  const char kind = volume.array ? volume.array.dtype().kind() : ' ';
+  if (std::string_view("iufb").find(kind) == std::string_view::npos) {
+    throw py::type_error("The argument " + name +
+                         " is no array of numbers. Give an array (nz, ny, nx).");
+  }
+  volume.name = name;
+  volume.type = volume.array.dtype().attr("str").cast<std::string>();
+  volume.choice.voxel_size = Vector3(voxel_size[0], voxel_size[1], voxel_size[2]);
+  std::string shape;
+  int dimensions = 0;
+  for (py::ssize_t k = 0; k < volume.array.ndim(); ++k) {
+    const py::ssize_t count = volume.array.shape(k);
+    if (count == 0) refuse("The argument " + name + " has no voxels. Give an array (nz, ny, nx).");
+    shape += (k == 0 ? "" : ", ") + std::to_string(count);
+    dimensions += count > 1 ? 1 : 0;
+  }
+  if (dimensions > 3) {
+    constexpr py::ssize_t most_channels = 8;
+    const bool has_channels = volume.array.shape(volume.array.ndim() - 1) <= most_channels;
+    refuse("The argument " + name + " has the shape (" + shape +
+           "), but a volume has three dimensions. " + "Give one of them, such as " + name +
+           (has_channels ? "[..., 0]." : "[0]."));
+  }
+  return volume;
 }
 
 std::string in_words_of_python(const Sentence& sentence) {

@@ -6,10 +6,15 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/lower_case.h"
 #include "wscvt/base/option.h"
@@ -43,6 +48,34 @@ pybind11::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles)
 template <class Enumeration>
 Enumeration value_of_name(const std::string& name) {
   return from_key<Enumeration>(lower_case(name));
+}
+
+/// A volume in an array, which it keeps.
+struct VolumeOfArray {
+  pybind11::array array;  ///< contiguous, the last dimension fastest
+  std::string type;       ///< NumPy's name of its numbers
+  std::string name;       ///< of the argument
+  VolumeChoice choice;
+
+  /// Opens it as the program opens a .npy file of it.
+  std::unique_ptr<LabelVolume> open() const;
+};
+
+/// Returns the volume of an argument (nz, ny, nx); dimensions of one are left out. Throws TypeError
+/// for anything but numbers, Error for other shapes and for voxel sizes that are not above 0.
+VolumeOfArray volume_of(const pybind11::object& argument, const std::string& name,
+                        const std::array<double, 3>& voxel_size);
+
+/// Returns what `work` returns of an array. No file is wrong: Error(InputOutput) becomes
+/// InvalidInput.
+template <class Work>
+auto of_array(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InputOutput) throw;
+    throw Error(ErrorCode::InvalidInput, error.sentence());
+  }
 }
 
 /// Replaces command-line options in a sentence of the library by argument names: "--edge-ratio"

@@ -49,7 +49,7 @@ def test_fabric_has_the_numbers_of_the_program(tmp_path):
 
 def test_fabric_refuses_what_is_no_volume_of_labels():
     labels = packing().astype(np.int64)
-    with pytest.raises(TypeError, match="whole numbers"):
+    with pytest.raises(wscvt.Error, match="whole numbers"):
         wscvt.fabric(labels + 0.5)
     with pytest.raises(wscvt.Error, match="three dimensions"):
         wscvt.fabric(labels[0])

@@ -572,13 +572,82 @@ def test_what_extract_refuses_and_warns_of():
     labels[2:7, 2:8, 2:8] = labels[2:5, 10:18, 2:8] = 3
     with pytest.warns(UserWarning, match="label 3 is in 2 pieces"):
         assert list(wscvt.extract(labels)) == [3]
-    with pytest.raises(TypeError, match="whole numbers"):
-        wscvt.extract(labels.astype(float))
+    with pytest.raises(TypeError, match="no array of numbers"):
+        wscvt.extract(labels.astype(str))
+    with pytest.warns(UserWarning, match="25 times as long in one direction"):
+        wscvt.extract(labels, (25, 1, 1), smallest=200)
     for given in [dict(labels=labels[0]), dict(labels=labels, smoothing=-1),
-                  dict(labels=labels, voxel_size=0.0), dict(labels=labels, smallest=0)]:
+                  dict(labels=labels, voxel_size=0.0), dict(labels=labels, smallest=0),
+                  dict(labels=0 * labels), dict(labels=labels[:0])]:
         with pytest.raises(wscvt.Error) as refused:
             wscvt.extract(**given)
         assert refused.value.code == "invalid-input"
+
+
+def box_volumes(meshes):
+    """The boxes of the grains in voxels, by their volume: other numbers of the same grains are equal."""
+    return sorted((round(volume(*mesh)), *np.ptp(mesh[0], axis=0).round(6)) for mesh in meshes)
+
+
+@pytest.mark.parametrize("case", ["uint8", "int16", ">i4", "int64", "float32", ">f8", "bool", "fortran", "ones",
+                                  "nan", "minus one", "minus one is not given", "64 bits", "a half", "too large",
+                                  "infinite", "channels", "frames", "half precision", "one image"])
+def test_extract_of_an_array_takes_and_refuses_what_the_program_does(case, tmp_path):
+    labels = np.zeros((12, 14, 16), dtype=np.int64)
+    labels[2:8, 2:9, 2:10] = 1
+    labels[3:10, 3:10, 11:15] = 2
+    options = {}
+    if case in ("uint8", "int16", ">i4", "int64", "float32", ">f8", "bool"):
+        labels = labels.astype(case)
+    elif case == "fortran":
+        labels = np.asfortranarray(labels)
+    elif case == "ones":
+        labels = labels[..., np.newaxis]
+    elif case == "nan":
+        labels = np.where(labels == 0, np.nan, labels)
+    elif case.startswith("minus one"):
+        labels[labels == 0] = -1
+        options = {} if case.endswith("given") else {"background": -1}
+    elif case == "64 bits":
+        labels[labels > 0] += 2 ** 40
+    elif case == "a half":
+        labels = labels + 0.5
+    elif case == "too large":
+        labels = labels * 1e12
+    elif case == "infinite":
+        labels = np.where(labels == 2, np.inf, labels)
+    elif case == "channels":
+        labels = np.stack([labels] * 2, axis=-1)
+    elif case == "frames":
+        labels = np.stack([labels] * 9)
+    elif case == "half precision":
+        labels = labels.astype(np.float16)
+    elif case == "one image":
+        labels = labels[5:6]
+    np.save(tmp_path / "labels.npy", labels)
+    call = [os.environ["WSCVT_PROGRAM"], "extract", "labels.npy", "out", "--smallest", "1", "--smoothing", "0"]
+    call += [f"--background={value}" for value in options.values()]
+    program = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True)
+    refused = case in ("minus one is not given", "a half", "too large", "infinite", "channels", "frames",
+                       "half precision", "one image")
+    # A mask is in two parts, of which one is left out.
+    assert program.returncode == (1 if refused else 3 if case == "bool" else 0), program.stderr
+    if not refused:
+        found = wscvt.extract(labels, smallest=1, smoothing=0, **options)
+        its = [wscvt.read_mesh(file) for file in (tmp_path / "out").glob("*.ply")]
+        assert box_volumes(found.values()) == box_volumes(its) and len(its) == (1 if case == "bool" else 2)
+        numbers = np.unique(labels[np.isfinite(labels) & (labels > 0)])
+        assert list(found) == list(numbers) and all(type(number) is int for number in found)
+        return
+    with pytest.raises(wscvt.InputError) as error:
+        wscvt.extract(labels, smallest=1, smoothing=0, **options)
+    if case in ("channels", "frames"):  # of an array, Python says how to take one
+        taken = "labels[..., 0]" if case == "channels" else "labels[0]"
+        assert taken in str(error.value)
+        assert len(wscvt.extract(eval(taken), smallest=1)) == 2
+    else:
+        for text in re.findall(r"holds \S+ at the voxel|0 on|whole numbers|one image|64 bits", program.stderr):
+            assert text in str(error.value)
 
 
 def test_signed_distances_are_exact_and_negative_inside():

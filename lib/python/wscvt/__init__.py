@@ -215,9 +215,10 @@ def extract(labels, voxel_size=1.0, **options):
     for label, mesh in wscvt.extract(tifffile.imread("labels.tif"), 0.012).items():
         result = wscvt.remesh(*mesh, nodes=500)
 
-    labels: (nz, ny, nx) whole numbers, as returned by numpy.load and tifffile.imread.
+    labels: (nz, ny, nx), as returned by numpy.load and tifffile.imread. Whole numbers, which may be
+        floats and have 64 bits, as in a file for "wscvt extract". NaN is background.
     voxel_size: length, or three along x, y and z. Voxel (0, 0, 0) begins at the origin.
-    background: the label of the background, 0 by default.
+    background: the number of the background, such as -1 or nan. 0 by default.
     smallest: min. number of voxels of a grain, 100 by default.
     at_border: include grains that touch the border and are cut by it. Off by default.
     smoothing: passes that smooth the voxels' steps, 0 to 1000, 20 by default.
@@ -226,8 +227,8 @@ def extract(labels, voxel_size=1.0, **options):
 
     Issues a UserWarning for a grain in pieces, and keeps its largest piece. Issues a UserWarning
     for a grain that is too thin to be smoothed, and omits it. Each mesh is closed and has exactly
-    the volume of its voxels, with pores filled. Raises Error, and TypeError for labels that are not
-    whole numbers.
+    the volume of its voxels, with pores filled. Raises Error, also for labels that are not whole
+    numbers, and TypeError for what is no array of numbers.
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
@@ -241,18 +242,18 @@ def fabric(labels, voxel_size=1.0, *, scan=None, **options):
     contacts = result["contacts"]
     areas = contacts["area"][contacts["contact"]]
 
-    labels: (nz, ny, nx) whole numbers, 0 to 4294967294.
+    labels: (nz, ny, nx), as for extract.
     voxel_size: length, or three along x, y and z. Voxel (0, 0, 0) begins at the origin.
     scan: the grey values from which wscvt segment made the labels, (nz, ny, nx). Their blur then
         corrects areas and false contacts. None: the labels are exact.
-    background: the label of the background, 0 by default.
+    background: as for extract.
     progress: as for remesh.
 
     "contacts" and "grains" are dictionaries of arrays with one row per pair of labels that touch,
     and per label. Their names are the columns of contacts.csv and grains.csv, with "centre",
     "normal" and "branch" as (n, 3); "contact" is False for a narrow gap. "tensor" and
     "branch_tensor" are (3, 3). "anisotropy", "coordination" and "blur" (length, or None) are
-    numbers. Raises Error, and TypeError for labels that are not whole numbers.
+    numbers. Raises Error as extract does.
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3

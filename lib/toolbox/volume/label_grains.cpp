@@ -30,16 +30,22 @@ void check_volume_options(const VolumeOptions& options) {
 
 LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
                          const Execution& execution)
-    : options_(options) {
+    : LabelGrains([path, choice = options.choice] { return open_volume(path, choice); }, path,
+                  options, execution) {}
+
+LabelGrains::LabelGrains(std::function<std::unique_ptr<LabelVolume>()> open,
+                         const std::string& name, const VolumeOptions& options,
+                         const Execution& execution)
+    : options_(options), open_(std::move(open)) {
   check_volume_options(options);
   try {
-    find_labels(path, false, execution);
+    find_labels(false, execution);
   } catch (const LargeNumber&) {
-    find_labels(path, true, execution);
+    find_labels(true, execution);
   }
   if (labels_.empty()) {
     throw Error(ErrorCode::InvalidInput,
-                "\"" + path + "\" has no label except the background, " +
+                "\"" + name + "\" has no label except the background, " +
                     (std::isnan(options.background) ? std::string("nan")
                                                     : format_number(options.background, 17)) +
                     ". Check it, or give " + mention("background") + ".");
@@ -52,8 +58,8 @@ LabelGrains::LabelGrains(const std::string& path, const VolumeOptions& options,
   });
 }
 
-void LabelGrains::find_labels(const std::string& path, bool anew, const Execution& execution) {
-  volume_ = open_volume(path, options_.choice);
+void LabelGrains::find_labels(bool anew, const Execution& execution) {
+  volume_ = open_();
   volume_->set_background(options_.background);
   if (anew) volume_->number_anew(most_labels);
   Label background = anew ? 0 : background_label(options_.background);

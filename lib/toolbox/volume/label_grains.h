@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -78,6 +79,10 @@ class LabelGrains {
   /// Error(InvalidInput) for a volume without labels.
   LabelGrains(const std::string& path, const VolumeOptions& options, const Execution& execution);
 
+  /// The same for the volume that `open` returns; it may be called twice. `name` is for messages.
+  LabelGrains(std::function<std::unique_ptr<LabelVolume>()> open, const std::string& name,
+              const VolumeOptions& options, const Execution& execution);
+
   const VolumeGeometry& geometry() const { return volume_->geometry(); }
 
   /// See LabelVolume.
@@ -110,12 +115,13 @@ class LabelGrains {
   LabelGrain read(std::size_t grain, const Execution& execution);
 
  private:
-  void find_labels(const std::string& path, bool anew, const Execution& execution);
+  void find_labels(bool anew, const Execution& execution);
   std::vector<VoxelStretch> stretches_of(std::size_t grain, const Execution& execution);
   void read_to(std::int32_t slice, const Execution& execution);
   void begin_again();
 
   VolumeOptions options_;
+  std::function<std::unique_ptr<LabelVolume>()> open_;
   std::unique_ptr<LabelVolume> volume_;
   std::vector<LabelExtent> labels_;
   std::vector<std::size_t> taken_;

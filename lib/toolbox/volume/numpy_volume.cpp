@@ -200,6 +200,26 @@ std::vector<std::pair<std::string, std::uint64_t>> members_of(const std::string&
 }
 #endif
 
+/// Bytes of an array in memory.
+class MemoryBytes : public ByteSource {
+ public:
+  MemoryBytes(const void* bytes, std::uint64_t size)
+      : bytes_(static_cast<const char*>(bytes)), size_(size) {}
+
+  std::size_t read(char* bytes, std::size_t count) override {
+    const auto filled = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - next_));
+    std::copy_n(bytes_ + next_, filled, bytes);
+    next_ += filled;
+    return filled;
+  }
+  void rewind() override { next_ = 0; }
+
+ private:
+  const char* bytes_;
+  std::uint64_t size_;
+  std::uint64_t next_ = 0;
+};
+
 ShapedVolume shaped(const NumpyHeader& header, const VolumeChoice& choice,
                     const std::string& path) {
   ArrayShape shape;
@@ -227,6 +247,18 @@ std::unique_ptr<LabelVolume> open_npy(const std::string& path, const VolumeChoic
   const ShapedVolume volume = shaped(header, choice, path);
   data.picks = volume.picks;
   return volume_of_files(volume.geometry, numpy_type_of(header.type, path), data);
+}
+
+std::unique_ptr<LabelVolume> volume_of_array(const VolumeArray& array, const VolumeChoice& choice,
+                                             const std::string& name) {
+  const ShapedVolume volume = shaped({array.type, false, array.counts}, choice, name);
+  const VoxelType type = numpy_type_of(array.type, name);
+  const auto voxel = static_cast<std::uint64_t>(type.bytes);
+  std::uint64_t size = voxel;
+  for (const std::int64_t count : array.counts) size *= static_cast<std::uint64_t>(count);
+  return volume_of_bytes(
+      volume.geometry, type,
+      picked_voxels(std::make_unique<MemoryBytes>(array.numbers, size), volume.picks, voxel), name);
 }
 
 #ifdef WSCVT_HAS_PACKERS

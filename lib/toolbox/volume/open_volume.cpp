@@ -90,13 +90,82 @@ bool is_dicom(const fs::path& path) {
   return file.read(head.data(), head.size()) && std::string(head.data() + 128, 4) == "DICM";
 }
 
+std::string between_quotes(const std::string& text) { return "\"" + text + "\""; }
+
+/// Returns the name of the first array in a group of Zarr, as Python names it; empty for an array.
+std::string array_in_zarr(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder / ".zarray", error)) return "";
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& path = entry.path();
+    const bool is_array =
+        fs::exists(path / ".zarray", error) || fs::exists(path / "zarr.json", error);
+    if (is_array) names.push_back(path.filename().string());
+  }
+  return names.empty() ? "" : *std::min_element(names.begin(), names.end());
+}
+
+std::string way_from_zarr(const std::string& path) {
+  const std::string name = array_in_zarr(path);
+  return "is Zarr, which wscvt does not read. Save the array as .npy in Python: import numpy, "
+         "zarr; numpy.save(\"labels.npy\", zarr.open(" +
+         between_quotes(path) + ", mode=\"r\")" +
+         (name.empty() ? "" : "[" + between_quotes(name) + "]") + "[:])";
+}
+
+/// Returns what follows a word in a text, up to the end of the line; empty without the word.
+std::string line_after(const std::string& text, const std::string& word) {
+  const std::size_t place = text.find(word);
+  if (place == std::string::npos) return "";
+  const std::size_t begin = place + word.size();
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// Returns the description of an AmiraMesh file as raw numbers, for a .json file beside it; empty
+/// for packed numbers and for texts. The header is a text up to the line "@1".
+std::string raw_description_of_amira(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(1 << 16, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const std::size_t data = head.find("\n@1\n");
+  if (data == std::string::npos || head.find("BINARY") > data) return "";
+  head.resize(data + 4);
+  const std::string size_line = line_after(head, "define Lattice");
+  TextFields counts(size_line);
+  std::string dimensions;
+  for (int k = 0; k < 3; ++k) {
+    const std::string count(counts.next());
+    if (!whole_number_in(count)) return "";
+    dimensions += (k == 0 ? "" : ", ") + count;
+  }
+  const std::string lattice_line = line_after(head, "Lattice {");
+  TextFields lattice(lattice_line);
+  const std::string amira(lattice.next());
+  const std::vector<std::pair<const char*, const char*>> types = {
+      {"byte", "uint8"}, {"ushort", "uint16"}, {"short", "int16"},
+      {"int", "int32"},  {"float", "float32"}, {"double", "float64"}};
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const auto& known) { return amira == known.first; });
+  lattice.next();  // the name
+  lattice.next();  // the end of the braces
+  if (type == types.end() || trimmed(lattice.rest()) != "@1") return "";
+  const bool is_little = head.find("LITTLE-ENDIAN") < data;
+  return "{\"dimensions\": [" + dimensions + "], \"type\": \"" + type->second +
+         "\", \"byte_order\": \"" + (is_little ? "little" : "big") +
+         "\", \"offset\": " + std::to_string(head.size()) +
+         ", \"file\": " + between_quotes(fs::path(path).filename().string()) + "}";
+}
+
 /// Returns a way from a format that is not read to one that is; empty for unknown formats. Each way
-/// is documented by the program that it names.
+/// was tried, see tests/volume/label_volume_test.cpp.
 std::string way_from(const std::string& path) {
   std::error_code error;
   const std::string ending = ending_of(path);
   bool has_dicom = ending == ".dcm" || ending == ".ima" || ending == ".dicom";
   bool is_zarr = ending == ".zarr";
+  std::string folder = path;
   if (fs::is_directory(path, error)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
       const std::string name = entry.path().filename().string();
@@ -105,20 +174,22 @@ std::string way_from(const std::string& path) {
     }
   } else {
     has_dicom = has_dicom || is_dicom(path);
+    folder = fs::path(path).parent_path().string();
   }
   if (has_dicom) {
-    return "is DICOM, which wscvt does not read. Convert the folder of the series by \"dcm2niix -z "
-           "y "
-           "FOLDER\", or open it in 3D Slicer and save the volume as .nrrd.";
+    return "is DICOM, which wscvt does not read. The command dcm2niix -z y " +
+           between_quotes(folder.empty() ? "." : folder) +
+           " writes the series as a .nii.gz file into its folder. Give that file.";
   }
-  if (is_zarr) {
-    return "is Zarr, which wscvt does not read. Save the array as .npy in Python: import numpy, "
-           "zarr; numpy.save(\"labels.npy\", zarr.open(\"FOLDER\", mode=\"r\")[:]). If the folder "
-           "holds several arrays, name one: zarr.open(...)[\"0\"][:].";
-  }
+  if (is_zarr) return way_from_zarr(path);
   if (ending == ".am" || ending == ".amiramesh") {
-    return "is AmiraMesh, which wscvt does not read. Open it in Fiji by File > Import > Amira, and "
-           "save it by File > Save As > Tiff; or export it as TIFF from Amira or Avizo.";
+    const std::string description = raw_description_of_amira(path);
+    return "is AmiraMesh, which wscvt does not read. " +
+           (description.empty()
+                ? "Its voxels are packed, or a text: save it as 3D TIFF in Amira or Avizo."
+                : "Its voxels are not packed: write a file labels.json beside it, with " +
+                      description + ", and give that file with " + mention("voxel-size").text() +
+                      ".");
   }
   if (ending == ".raw" || ending == ".vol") {
     return "is a raw file, which does not say its size. Write a .json file beside it, such as "
@@ -163,6 +234,13 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
                      ", and give the right size by " + mention("voxel-size", "X,Y,Z") + ".");
 }
 
+void check_voxel_size(const VolumeChoice& choice) {
+  if (choice.voxel_size &&
+      !(choice.voxel_size->allFinite() && choice.voxel_size->minCoeff() > 0.0)) {
+    throw Error(ErrorCode::InvalidInput, "The size of a voxel has to be above 0 along each axis.");
+  }
+}
+
 /// Checks common to all formats.
 void check_opened(LabelVolume& volume, const VolumeChoice& choice, const std::string& path) {
   const VolumeGeometry& geometry = volume.geometry();
@@ -185,10 +263,7 @@ bool is_volume(const std::string& path) {
 }
 
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {
-  if (choice.voxel_size &&
-      !(choice.voxel_size->allFinite() && choice.voxel_size->minCoeff() > 0.0)) {
-    throw Error(ErrorCode::InvalidInput, "The size of a voxel has to be above 0 along each axis.");
-  }
+  check_voxel_size(choice);
   std::error_code error;
   std::unique_ptr<LabelVolume> volume;
   if (fs::is_directory(path, error)) {
@@ -210,6 +285,18 @@ std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeCh
   }
   check_opened(*volume, choice, path);
   return volume;
+}
+
+std::unique_ptr<LabelVolume> open_array(const VolumeArray& array, const VolumeChoice& choice,
+                                        const std::string& name) {
+  check_voxel_size(choice);
+  try {
+    std::unique_ptr<LabelVolume> volume = volume_of_array(array, choice, name);
+    check_opened(*volume, choice, name);
+    return volume;
+  } catch (const Error& error) {
+    throw Error(ErrorCode::InvalidInput, error.sentence());  // no file is wrong
+  }
 }
 
 }  // namespace wscvt

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
@@ -20,5 +22,17 @@ bool is_volume(const std::string& path);
 /// Throws Error: InputOutput if the file cannot be read, is cut short, has an unknown form, or
 /// contains more than one volume and none was chosen; InvalidInput for sizes that are not above 0.
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice = {});
+
+/// Numbers in memory, the last dimension fastest, as in a .npy file.
+struct VolumeArray {
+  const void* numbers = nullptr;     ///< must outlive the volume
+  std::string type;                  ///< NumPy's name: "<u2", "|b1", ">f8"
+  std::vector<std::int64_t> counts;  ///< the slowest first
+};
+
+/// Opens an array exactly as open_volume opens a .npy file of it. `name` is the array's, for
+/// messages. Throws as open_volume, but always Error(InvalidInput).
+std::unique_ptr<LabelVolume> open_array(const VolumeArray& array, const VolumeChoice& choice,
+                                        const std::string& name);
 
 }  // namespace wscvt

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/volume_choice.h"
 
 namespace wscvt {
@@ -24,6 +25,10 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
 std::unique_ptr<LabelVolume> open_npy(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_legacy_vtk(const std::string& path, const VolumeChoice& choice);
+
+/// Opens an array in memory, see VolumeArray. `name` is for messages.
+std::unique_ptr<LabelVolume> volume_of_array(const VolumeArray& array, const VolumeChoice& choice,
+                                             const std::string& name);
 
 /// Opens HDF5, and MATLAB's files from version 7.3 on.
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice);
