@@ -89,6 +89,8 @@ TEST_F(Templates, RefusesWrongCalls) {
   std::ofstream(path("same.csv")) << "file,volume,convexity\na.ply,1,0.9\nb.ply,2,0.9\n";
   expect_refused("templates",
                  {{"scans -k 4 -o out", 1, "3 grains"},
+                  {"scans/s10.stl -k 1 -o out", 1, "one grain, so there is nothing to choose"},
+                  {"scans/s10.stl -o out", 1, "Give at least two grains"},
                   {"scans -k 0 -o out", 2, "templates"},
                   {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},

@@ -162,6 +162,10 @@ TEST_F(GrainTableTest, ErrorsNameFileLineAndColumn) {
   EXPECT_NE(refusal(rows + "c,\"1,2\n").find("line 4: the file ends within"), std::string::npos);
   EXPECT_NE(refusal("grain,status,v\na,done,1").find("line 2: the file ends within"),
             std::string::npos);
+  for (const char* table : {"0,0,0,1\n.5,0,0,1\n", "12\n13\n", "1;2.5\n", "1,nan\n"}) {
+    EXPECT_NE(refusal(table).find("line 1: the first line has numbers"), std::string::npos)
+        << table;
+  }
   EXPECT_NE(refusal("a,b,a [mm]\n").find("line 1: two columns are named \"a\""), std::string::npos);
   EXPECT_NE(refusal("a|b\n1|2\n").find("by commas"), std::string::npos);
   EXPECT_NE(refusal("grain,v\n").find("no row"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -217,6 +218,7 @@ struct Nifti {
   int type = 512;  // uint16
   int bits = 16;
   double slope = 0.0;
+  double more = 0.0;  ///< added to a scaled voxel
   int sform = 1;
 
   std::string bytes() const {
@@ -256,6 +258,7 @@ struct Nifti {
       put(168, 8, 544);
     }
     put_real(version == 1 ? 112 : 176, slope);
+    put_real(version == 1 ? 116 : 184, more);
     put(version == 1 ? 123 : 500, version == 1 ? 1 : 4, 3);  // micrometres
     put(version == 1 ? 254 : 348, version == 1 ? 2 : 4, static_cast<std::uint64_t>(sform));
     // x of the lattice runs along -y, y along x.
@@ -337,11 +340,22 @@ TEST_F(ArrayVolumes, ReadsNifti) {
   write_as(16, 32, floats);
   expect_made("a.nii");
   expect_cut_is_refused("a.nii", 1);
+  const float infinite = std::numeric_limits<float>::infinity();
+  std::memcpy(floats.data(), &infinite, 4);
+  write_as(16, 32, floats);
+  expect_refused("a.nii", {"holds infinity", "Change it to the background"});
   write_as(128, 24, std::string(315, '\0'));  // RGB
   expect_refused("a.nii", {"type"});
   nifti.slope = 2.0;
   write_as(4, 16, made_.bytes<std::int16_t>());
-  expect_refused("a.nii", {"scales its voxels by 2"});
+  expect_refused("a.nii", {"scales its voxels by 2", "wscvt segment"});
+  const auto scaled = open_volume(path("a.nii"));
+  scaled->read_grey_values();
+  EXPECT_EQ(grey_value(scaled->next_row().front()), static_cast<float>(made_.labels.front()));
+  nifti.slope = 1.0;
+  nifti.more = 3.0;  // as dcm2niix writes CT, with -1024
+  write_as(4, 16, made_.bytes<std::int16_t>());
+  EXPECT_EQ(open_volume(path("a.nii"))->next_row().front(), made_.labels.front() + 3);
   write("a.nii", "no NIfTI");
   expect_refused("a.nii", {"not a NIfTI"});
   nifti.slope = 0.0;

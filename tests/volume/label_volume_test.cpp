@@ -581,23 +581,43 @@ TEST_F(LabelVolumeOfAFile, RefusesVoxelsThatAreNoLabels) {
 TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
   write_bytes(path("a.dcm"), std::string(128, '\0') + "DICM");
   write_bytes(path("IM0001"), std::string(128, '\0') + "DICM");
-  write_bytes(path("a.am"), "# AmiraMesh BINARY-LITTLE-ENDIAN 2.1\n");
+  const std::string lattice =
+      "\n\ndefine Lattice 7 5 3\n\nParameters {\n  CoordType \"uniform\"\n}\n\nLattice { ushort "
+      "Labels } @1";
+  write_bytes(path("a.am"), "# AmiraMesh BINARY-LITTLE-ENDIAN 2.1" + lattice + "\n\n@1\n" +
+                                made_.bytes<std::uint16_t>() + "\n");
+  write_bytes(path("packed.am"),
+              "# AmiraMesh BINARY-LITTLE-ENDIAN 2.1" + lattice + "(HxByteRLE,66)\n\n@1\nxyz");
+  write_bytes(path("text.am"), "# AmiraMesh 3D ASCII 2.0" + lattice + "\n\n@1\n0 0 0");
   write_bytes(path("a.raw"), "x");
   fs::create_directory(folder_ / "series");
   write_bytes(path("series/IM0001"), std::string(128, '\0') + "DICM");
   fs::create_directory(folder_ / "a.zarr");
   write_bytes(path("a.zarr/.zarray"), "{}");
+  fs::create_directories(folder_ / "group" / "1");
+  fs::create_directories(folder_ / "group" / "0");
+  write_bytes(path("group/.zgroup"), "{}");
+  write_bytes(path("group/1/.zarray"), "{}");
+  write_bytes(path("group/0/.zarray"), "{}");
   for (const auto& [name, way] :
        std::vector<std::pair<std::string, std::string>>{{"a.dcm", "dcm2niix"},
                                                         {"IM0001", "dcm2niix"},
                                                         {"series", "dcm2niix"},
-                                                        {"a.zarr", "numpy.save"},
-                                                        {"a.am", "Fiji"},
+                                                        {"a.zarr", "a.zarr\", mode=\"r\")[:])"},
+                                                        {"group", "mode=\"r\")[\"0\"][:])"},
+                                                        {"packed.am", "packed, or a text"},
+                                                        {"text.am", "packed, or a text"},
                                                         {"a.raw", "\"file\": \"a.raw\""}}) {
     EXPECT_NE(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path(name)); }).find(way),
               std::string::npos)
         << name;
   }
+  // The way from AmiraMesh, followed.
+  const std::string way = test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("a.am")); });
+  const std::size_t begin = way.find('{');
+  ASSERT_NE(begin, std::string::npos) << way;
+  write_bytes(path("labels.json"), way.substr(begin, way.find('}') - begin + 1));
+  expect_labels("labels.json");
 }
 
 }  // namespace

@@ -132,6 +132,15 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   std::vector<std::string> headings = fields;
   // Spreadsheets write this mark at the beginning of a UTF-8 file.
   if (headings[0].rfind("\xEF\xBB\xBF", 0) == 0) headings[0].erase(0, 3);
+  const bool has_numbers_only =
+      std::all_of(headings.begin(), headings.end(), [&](const std::string& field) {
+        return !trimmed(field).empty() && field_number(field, decimal_).has_value();
+      });
+  if (has_numbers_only) {
+    fail(
+        "the first line has numbers, not the names of the columns. Write a heading first, such as "
+        "\"grain,volume,area\", with a name per column.");
+  }
   if (const auto foreign = foreign_columns(headings)) foreign_ = *foreign;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     fields_.push_back(foreign_.empty() ? column_of(headings[k])

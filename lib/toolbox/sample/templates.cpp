@@ -324,6 +324,11 @@ Eigen::MatrixXd standardised(const Eigen::MatrixXd& descriptors, const std::vect
   require_in_range(options.count, template_count_option);
   if (descriptors.cols() == 0)
     refuse("There is no descriptor to choose templates with. Give at least one.");
+  if (descriptors.rows() == 1) {
+    refuse(
+        "The sample has one grain, so there is nothing to choose. Give at least two grains. To "
+        "remesh one grain, use wscvt remesh.");
+  }
   if (descriptors.rows() < options.count) {
     refuse("The sample has " + std::to_string(descriptors.rows()) + " grains, fewer than the " +
            std::to_string(options.count) +

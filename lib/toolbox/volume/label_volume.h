@@ -46,6 +46,8 @@ struct LabelCoding {
   /// The number between the grains, as the file holds it; NaN: only NaN. NaN always counts as it.
   double background = 0.0;
   std::int64_t offset = 0;  ///< to be added to each number of the file
+  std::string no_labels =
+      {};  ///< why the numbers are grey values and no labels; empty: they may be
   /// The label of each number above the largest label, see LabelVolume::number_anew.
   std::map<std::uint64_t, Label> numbers = {};
   bool finds_numbers = false;  ///< such numbers are entered in `numbers`
@@ -94,6 +96,9 @@ class LabelVolume {
 
   /// Adds a whole number to every number of the file.
   void set_offset(std::int64_t offset) { coding_.offset = offset; }
+
+  /// Refuses the numbers as labels, with this sentence. They can be read as grey values.
+  void refuse_labels(std::string sentence) { coding_.no_labels = std::move(sentence); }
 
   /// Reads the volume, and numbers from now on all its labels from 1, in their order; names() get
   /// the file's numbers. For files whose numbers are larger than a label. Throws

@@ -15,6 +15,7 @@
 #include <mutex>
 
 #include "wscvt/base/file_name.h"
+#include "wscvt/base/text_format.h"
 #endif
 
 namespace wscvt {
@@ -132,6 +133,43 @@ void set_geometry(const nifti_image& image, const VolumeChoice& choice, const st
   set_lattice(geometry, axes, origin, choice, path);
 }
 
+std::unique_ptr<LabelVolume> volume_of_voxels(const VolumeGeometry& geometry, const VoxelType& type,
+                                              const VoxelData& data) {
+  const std::string& path = data.paths.front();
+  if (ending_of(path) != ".gz") return volume_of_files(geometry, type, data);
+  // The offset is in the unpacked bytes.
+  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
+  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
+  check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);
+  return volume_of_bytes(
+      geometry, type,
+      picked_voxels(bytes_behind(inflated_bytes(file_bytes(path, 0), path), data.offset),
+                    data.picks, static_cast<std::uint64_t>(type.bytes)),
+      path);
+}
+
+/// Adds a whole number to the voxels, such as the -1024 of CT in DICOM. Other scales are left out:
+/// they change no order of grey values, but are not of labels.
+void apply_scale(const nifti_image& image, const std::string& path, LabelVolume& volume) {
+  const double slope = image.scl_slope;
+  const double more = image.scl_inter;
+  if (slope == 0.0 || (slope == 1.0 && more == 0.0)) return;
+  constexpr double most = 1e9;
+  if (slope == 1.0 && more == std::floor(more) && std::abs(more) < most) {
+    volume.set_offset(static_cast<std::int64_t>(more));
+    volume.add_note("The header's " + format_number(more, 10) +
+                    " was added to the file's numbers.");
+    return;
+  }
+  const std::string scale =
+      "scales its voxels by " + format_number(slope, 6) + " and adds " + format_number(more, 6);
+  volume.refuse_labels(
+      "\"" + path + "\" " + scale +
+      ", so they are not labels. Save them unscaled. If they are grey values, label "
+      "the grains by wscvt segment.");
+  volume.add_note("The header " + scale + ". Grey values are the file's numbers without this.");
+}
+
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice& choice) {
@@ -140,13 +178,6 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
   const NiftiImage image = header_of(path);
   if (image->nifti_type != NIFTI_FTYPE_NIFTI1_1 && image->nifti_type != NIFTI_FTYPE_NIFTI2_1) {
     refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
-  }
-  const bool is_scaled =
-      image->scl_slope != 0.0 && (image->scl_slope != 1.0 || image->scl_inter != 0.0);
-  if (is_scaled) {
-    refuse_volume(path, "scales its voxels by " + std::to_string(image->scl_slope) + " and adds " +
-                            std::to_string(image->scl_inter) +
-                            ", so they are not labels. Save them unscaled.");
   }
   VolumeGeometry geometry;
   set_geometry(*image, choice, path, geometry);
@@ -165,16 +196,9 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
                          {AxisKind::Frame, std::max<std::int64_t>(1, image->nt)},
                          {AxisKind::Channel, more}},
                         choice, path);
-  if (ending_of(path) != ".gz") return volume_of_files(geometry, type, data);
-  // The offset is in the unpacked bytes.
-  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
-  check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);
-  return volume_of_bytes(
-      geometry, type,
-      picked_voxels(bytes_behind(inflated_bytes(file_bytes(path, 0), path), data.offset),
-                    data.picks, static_cast<std::uint64_t>(type.bytes)),
-      path);
+  std::unique_ptr<LabelVolume> volume = volume_of_voxels(geometry, type, data);
+  apply_scale(*image, path, *volume);
+  return volume;
 }
 
 #else

@@ -174,9 +174,10 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   constexpr double much = 0.05;
   // Grains at the border of what was scanned leave some of it open.
   constexpr double full = 0.85;
-  const bool is_full =
+  const bool is_inverted =
+      segmentation.filled > 0 &&
       share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
-  if (is_full && segmentation.filled > 0) {
+  if (is_inverted) {
     doubts.push_back("The material fills the volume, with holes of " +
                      format_percent(share_of(segmentation.filled, segmentation.material)) +
                      " of it: the grains seem to be " +
@@ -228,7 +229,9 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   std::uint64_t largest = 0;
   for (const LabelExtent& grain : segmentation.grains) largest = std::max(largest, grain.voxels);
   constexpr double most = 0.75;
-  if (segmentation.grains.size() != 2 && share_of(largest, segmentation.material) > most) {
+  // Inverted grains are one body, and no other separation helps.
+  if (!is_inverted && segmentation.grains.size() != 2 &&
+      share_of(largest, segmentation.material) > most) {
     doubts.push_back("One grain has " + format_percent(share_of(largest, segmentation.material)) +
                      " of the material: it may be several. Give a larger " + mention("separate") +
                      ", or a higher " + mention("threshold") + ".");

@@ -66,7 +66,13 @@ std::string place_text(std::size_t x, const RowPlace& place) {
 }
 
 [[noreturn]] void refuse_fraction(double value, std::size_t x, const RowPlace& place) {
-  const std::string number = std::isfinite(value) ? format_number(value, 10) : "infinity";
+  if (!std::isfinite(value)) {
+    refuse_volume(place.path,
+                  "holds infinity" + place_text(x, place) +
+                      ". Labels are whole numbers. Change it to the background, such as "
+                      "0, in the volume.");
+  }
+  const std::string number = format_number(value, 10);
   refuse_volume(place.path, "holds " + number + place_text(x, place) +
                                 ". Labels are whole numbers. If these are grey values, label the "
                                 "grains by wscvt segment.");
@@ -176,6 +182,9 @@ class VolumeOfBytes : public LabelVolume {
       : LabelVolume(geometry), type_(type), bytes_(std::move(bytes)), path_(std::move(path)) {}
 
   const std::vector<Label>& next_row() override {
+    if (!coding().as_grey && !coding().no_labels.empty()) {
+      throw Error(ErrorCode::InputOutput, coding().no_labels);
+    }
     // Allocated here, after the checks that detect a false count in a packed file.
     const auto count = static_cast<std::size_t>(geometry().counts[0]);
     row_.resize(count);
