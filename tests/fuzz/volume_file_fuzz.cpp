@@ -22,6 +22,8 @@ using namespace wscvt;
 
 std::string ending_for(char format) {
   switch (format) {
+    case 'a':
+      return ".am";
     case 'n':
       return ".nrrd";
     case 'm':
