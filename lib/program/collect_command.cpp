@@ -5,6 +5,7 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "output_paths.h"
+#include "toolbox/job/remesh_job.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "work.h"
@@ -55,7 +56,9 @@ int run(const CollectArguments& arguments) {
   }
   join_tables(arguments.tables, arguments.output);
   const SampleSummary summary = summarise_table(arguments.output);
-  for (const std::string& file : arguments.summaries) write_summary(file, summary);
+  for (const std::string& file : arguments.summaries) {
+    write_summary(file, summary, remeshes_beside(arguments.tables));
+  }
   print(summary_lines(summary), arguments.quiet);
   return summary.failed == 0 ? Done : SomeFailed;
 }

@@ -466,6 +466,7 @@ TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
     EXPECT_EQ(content("all.csv"), content("whole/grains.csv"));
     EXPECT_EQ(content("all.json"), content("whole/summary.json"));
     EXPECT_EQ(content("all.html"), content("whole/summary.html"));
+    EXPECT_NE(content("all.html").find("<h2>Remeshes</h2>"), std::string::npos);
     EXPECT_NE(joined.output.find("1 failed"), std::string::npos);
     EXPECT_EQ(run("collect " + std::regex_replace(tables, std::regex("grains-"), "shape-") +
                   "-o shape.csv")

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -288,8 +290,7 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
   for (const JobFolder& folder : folders_of(job)) {
     const SampleSummary summary = summarise_table(folder.table());
     for (const char* ending : {".json", ".html"}) {
-      write_summary(folder.file("summary", ending), summary,
-                    [&](const std::string& grain) { return folder.file_of(grain); });
+      write_summary(folder.file("summary", ending), summary, remeshes_beside({folder.table()}));
     }
     for (const std::string& line : summary_lines(summary)) lines.push_back(line);
   }
@@ -305,6 +306,28 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
     if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
   }
   return lines;
+}
+
+FileOfGrain remeshes_beside(const std::vector<std::string>& tables) {
+  std::vector<JobFolder> folders;
+  for (const std::string& table : tables) {
+    const std::filesystem::path folder = std::filesystem::path(table).parent_path();
+    // The job's call is beside the table, or above the folder of a number of nodes.
+    for (const std::filesystem::path& place : {folder, folder / ".."}) {
+      std::ifstream stream(place / "call.json", std::ios::binary);
+      const Json call = Json::parse(stream, nullptr, false);
+      if (!call.is_object() || !call.value("meshes", Json()).is_string()) continue;
+      folders.emplace_back(folder, call["meshes"].get<std::string>(), Shard());
+      break;
+    }
+  }
+  return [folders](const std::string& grain) -> std::string {
+    for (const JobFolder& folder : folders) {
+      const std::string file = folder.file_of(grain);
+      if (std::filesystem::exists(file)) return file;
+    }
+    return "";
+  };
 }
 
 }  // namespace wscvt

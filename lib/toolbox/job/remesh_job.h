@@ -6,6 +6,7 @@
 
 #include "toolbox/exchange/simulation_options.h"
 #include "toolbox/job/grain_job.h"
+#include "toolbox/report/sample_summary.h"
 #include "toolbox/report/shape_table.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/remesh/remesh_options.h"
@@ -44,5 +45,9 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
 /// Writes summary.json and summary.html beside each grains.csv of a job that is done. Returns lines
 /// for a log. Does nothing for a part of a sample.
 std::vector<std::string> write_summaries(const GrainJob& job);
+
+/// Returns a function that finds the remesh of a grain in the folders of tables that jobs wrote. It
+/// returns "" for a grain whose remesh is in none of them.
+FileOfGrain remeshes_beside(const std::vector<std::string>& tables);
 
 }  // namespace wscvt
