@@ -11,7 +11,9 @@
 #include "common_arguments.h"
 #include "exit_code.h"
 #include "job_on_terminal.h"
+#include "output_paths.h"
 #include "signals.h"
+#include "toolbox/conforming/conforming_files.h"
 #include "toolbox/job/grain_files.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
@@ -83,13 +85,79 @@ class LabelRows {
   std::size_t too_small_ = 0;
 };
 
+constexpr FlagOption conforming_option = {
+    "conforming", "remesh all grains at once",
+    "with common walls; OUT also gets walls.vtu, walls.msh, walls.csv and grains.csv"};
+
+/// Remeshes all taken labels at once.
+int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
+  std::vector<Label> labels;
+  for (const LabelExtent& label : grains.labels()) {
+    if (grains.state(label) == LabelState::Taken) labels.push_back(label.label);
+  }
+  if (labels.empty()) {
+    refuse("No label of \"" + arguments.volume + "\" is a grain to mesh. Give " +
+           mention(at_border_option) + " or a smaller " + mention(smallest_option) + ".");
+  }
+  CommonArguments common;
+  common.threads = arguments.threads;
+  common.quiet = arguments.quiet;
+  Work work(common);
+  const MadeFolder folder(arguments.folder);
+  const auto in_folder = [&](const std::string& name) {
+    return (fs::path(arguments.folder) / name).string();
+  };
+  check_writable(in_folder("grains.csv"));
+  ConformingOptions options = arguments.walls;
+  options.smoothing = arguments.options.smoothing;
+  GrainVoxels voxels =
+      read_grain_voxels(grains.voxels(), labels, work.execution().part(0.0, reading_share));
+  // The layer of background about the voxels moves the lattice.
+  VolumeGeometry geometry = grains.geometry();
+  geometry.corner = geometry.point(Vector3(-1.0, -1.0, -1.0));
+  const ConformingGrains result =
+      conform_grains(std::move(voxels), labels.size(), geometry, options,
+                     work.execution().part(reading_share, 1.0));
+  std::vector<std::string> files;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    files.push_back(std::to_string(labels[g]) + "." + arguments.format);
+    work.write(in_folder(files.back()), [&](const std::string& path, const Execution&) {
+      write_mesh(mesh_of(result, g), path);
+    });
+  }
+  const auto write = [&](const char* name, const std::string& text) {
+    work.write(in_folder(name),
+               [&](const std::string& path, const Execution&) { write_file(path, text); });
+  };
+  const std::string rows =
+      std::accumulate(grains.labels().begin(), grains.labels().end(), label_header(),
+                      [&](std::string text, const LabelExtent& label) {
+                        return std::move(text) + label_row(arguments.volume, grains, label, {});
+                      });
+  write("labels.csv", rows);
+  write("walls.vtu", walls_vtu(result, labels));
+  write("walls.msh", walls_msh(result, labels));
+  write("walls.csv", walls_csv(result, labels));
+  write("grains.csv", conforming_csv(result, labels, files));
+  std::vector<Sentence> warnings;
+  if (result.intersections > 0) {
+    warnings.push_back(std::to_string(result.intersections) +
+                       " pairs of triangles intersect, in gaps or parts about a voxel wide. Give "
+                       "another " +
+                       mention(edge_length_option) + ", or segment with wider gaps.");
+  }
+  work.print(warnings, conforming_lines(result));
+  return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
+}
+
 }  // namespace
 
 CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
   CLI::App& app = add_command(
       program, {"extract",
                 "Make a mesh of each grain of a segmented CT volume",
-                {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012"},
+                {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
+                 "labels.nrrd grains --conforming --edge-length 4"},
                 "OUT gets one mesh per label, such as 12.ply, and labels.csv with the state of "
                 "every label.\n"
                 "wscvt batch reads volumes too and remeshes their grains.",
@@ -102,6 +170,9 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
       ->required();
   add_output(app, "output", arguments.folder, "Output folder", "OUT");
   add_volume_arguments(app, arguments.options, "Options");
+  app.add_flag("--conforming", arguments.conforming,
+               help_of(arguments.conforming, conforming_option));
+  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
   add_format_argument(app, arguments.format);
   add_threads_argument(app, arguments.threads);
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
@@ -112,6 +183,9 @@ int run(const ExtractArguments& arguments) {
   checked([&] {
     check_format(arguments.format);
     check_volume_options(arguments.options);
+    if (!arguments.conforming && arguments.walls.edge_length > 0.0) {
+      refuse(mention(edge_length_option) + " is only for " + mention(conforming_option) + ".");
+    }
     if (same_file(arguments.volume, arguments.folder)) {
       refuse("\"" + arguments.volume + "\" is the volume itself. Give an output folder.");
     }
@@ -127,6 +201,7 @@ int run(const ExtractArguments& arguments) {
       open_grains(arguments.volume, arguments.options, arguments.quiet);
   print_notes(*grains, "wscvt extract " + arguments.volume + " " + arguments.folder,
               arguments.quiet);
+  if (arguments.conforming) return run_conforming(arguments, *grains);
   const fs::path folder = arguments.folder;
   std::error_code error;
   fs::create_directories(folder, error);

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "toolbox/conforming/conforming_grains.h"
 #include "volume_arguments.h"
 
 namespace wscvt::program {
@@ -14,7 +15,9 @@ struct ExtractArguments {
   VolumeOptions options;
   std::string folder;
   std::string format = "ply";
-  int threads = 0;  ///< 0: all
+  bool conforming = false;
+  ConformingOptions walls;  ///< of conforming grains
+  int threads = 0;          ///< 0: all
   bool quiet = false;
 };
 

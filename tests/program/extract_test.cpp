@@ -114,6 +114,38 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
 }
 
 // membrain-pick 16, MorphoLibJ: one label for all grains.
+TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
+  volume_.fill_ball(3, {20, 30, 30}, 12.0);
+  volume_.fill_ball(8, {42, 30, 30}, 12.0);
+  test::write_bytes(folder_ / "pair.nrrd", test::nrrd(volume_, "spacings: 0.5 0.5 0.5\n"));
+  const Outcome outcome = run("extract pair.nrrd out --conforming --edge-length 1.5");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  auto grains = rows("out/grains.csv", "grain");
+  ASSERT_EQ(grains.size(), 2U);
+  for (const char* label : {"3", "8"}) {
+    auto& row = grains.at(label);
+    const IndexedMesh mesh = read_mesh((folder_ / "out" / row.at("file")).string());
+    EXPECT_EQ(std::to_string(mesh.points.size()), row.at("nodes"));
+    EXPECT_EQ(std::to_string(mesh.triangles.size()), row.at("triangles"));
+    EXPECT_EQ(row.at("contacts"), "1");
+    // Each voxel is an eighth. The table's numbers read back to the same bits.
+    EXPECT_EQ(std::stod(row.at("voxel_volume")), 0.125 * std::stod(row.at("voxels")));
+    EXPECT_NEAR(std::stod(row.at("volume")), std::stod(row.at("voxel_volume")), 1e-8);
+  }
+  auto walls = rows("out/walls.csv", "first");
+  ASSERT_EQ(walls.size(), 1U);
+  // The middle of the common disc, at (31, 30, 30) voxels; its rim moves it by less than a voxel.
+  EXPECT_NEAR(std::stod(walls.at("3").at("x")), 15.5, 0.5);
+  EXPECT_NEAR(std::stod(walls.at("3").at("y")), 15.0, 0.5);
+  EXPECT_EQ(content("out/walls.vtu").rfind("<?xml", 0), 0U);
+  EXPECT_NE(content("out/walls.msh").find("\"wall_3_8\""), std::string::npos);
+  EXPECT_NE(content("out/walls.msh").find("\"grain_8\""), std::string::npos);
+  const Outcome alone = run("extract pair.nrrd other --edge-length 1.5");
+  EXPECT_NE(alone.exit_code, 0);
+  EXPECT_NE(alone.errors.find("--edge-length is only for --conforming"), std::string::npos)
+      << alone.errors;
+}
+
 TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   const std::int64_t ball = volume_.fill_ball(255, {20, 20, 30}, 12.0);
   const std::int64_t other = volume_.fill_ball(255, {50, 20, 20}, 10.0);

@@ -8,7 +8,7 @@ cmake_minimum_required(VERSION 3.22)
 set(order wscvt/base wscvt/sphere wscvt/mesh_files wscvt/repair wscvt/surface wscvt/measures
   wscvt/tessellation wscvt/nodes wscvt/remesh wscvt/report toolbox/map toolbox/clump toolbox/convex toolbox/sample
   toolbox/fragment toolbox/tetrahedra toolbox/report toolbox/exchange toolbox/volume toolbox/resolution toolbox/job
-  toolbox/fabric)
+  toolbox/fabric toolbox/conforming)
 
 file(GLOB_RECURSE files RELATIVE ${library_dir} ${library_dir}/wscvt/*.h ${library_dir}/wscvt/*.cpp
   ${library_dir}/toolbox/*.h ${library_dir}/toolbox/*.cpp)

@@ -106,6 +106,13 @@ void LabelGrains::want(const std::vector<std::size_t>& grains) {
   volume_->rewind();
 }
 
+LabelVolume& LabelGrains::voxels() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_behind_ = true;
+  volume_->rewind();
+  return *volume_;
+}
+
 void LabelGrains::begin_again() {
   for (auto& [label, stretches] : at_work_) stretches.clear();
   volume_->rewind();

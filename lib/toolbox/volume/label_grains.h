@@ -114,6 +114,10 @@ class LabelGrains {
   /// volume can no longer be read as it was when its labels were found.
   LabelGrain read(std::size_t grain, const Execution& execution);
 
+  /// Returns the labels from their first row on, for a caller that reads all voxels. read() then
+  /// starts from the beginning.
+  LabelVolume& voxels();
+
  private:
   void find_labels(bool anew, const Execution& execution);
   std::vector<VoxelStretch> stretches_of(std::size_t grain, const Execution& execution);

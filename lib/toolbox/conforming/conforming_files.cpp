@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/conforming/conforming_files.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_writers.h"
+
+namespace wscvt {
+
+namespace {
+
+std::string side_text(std::int32_t grain, const std::vector<Label>& labels) {
+  return grain < 0 ? "-1" : std::to_string(labels[index(grain)]);
+}
+
+/// The triangles between the same two grains; the order of Gmsh's surfaces.
+std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> surfaces_of(
+    const ConformingGrains& grains) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> surfaces;
+  for (std::size_t t = 0; t < grains.triangles.size(); ++t) {
+    surfaces[{grains.triangles[t].outer, grains.triangles[t].inner}].push_back(t);
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& labels,
+                              const Execution& execution) {
+  const VoxelCounts& counts = volume.geometry().counts;
+  GrainVoxels voxels({counts[0] + 2, counts[1] + 2, counts[2] + 2});
+  Label last = 0;
+  std::int32_t grain = -1;
+  bool is_known = false;
+  for (std::int32_t z = 0; z < counts[2]; ++z) {
+    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
+    for (std::int32_t y = 0; y < counts[1]; ++y) {
+      const std::vector<Label>& row = volume.next_row();
+      for (std::int32_t x = 0; x < counts[0]; ++x) {
+        const Label label = row[index(x)];
+        if (!is_known || label != last) {
+          const auto found = std::lower_bound(labels.begin(), labels.end(), label);
+          const bool is_grain = found != labels.end() && *found == label;
+          grain = is_grain ? static_cast<std::int32_t>(found - labels.begin()) : -1;
+          last = label;
+          is_known = true;
+        }
+        voxels.grain[voxels.place(x + 1, y + 1, z + 1)] = grain;
+      }
+    }
+  }
+  return voxels;
+}
+
+std::string walls_vtu(const ConformingGrains& grains, const std::vector<Label>& labels) {
+  std::string places;
+  std::string corners;
+  std::string ends;
+  std::string types;
+  std::string inner;
+  std::string outer;
+  for (const Vector3& p : grains.points) places += vector_text(p) + "\n";
+  std::size_t end = 0;
+  for (const WallTriangle& t : grains.triangles) {
+    for (const std::int32_t corner : t.corners) corners += std::to_string(corner) + " ";
+    corners += "\n";
+    ends += std::to_string(end += 3) + "\n";
+    types += "5\n";  // VTK_TRIANGLE
+    inner += side_text(t.inner, labels) + "\n";
+    outer += side_text(t.outer, labels) + "\n";
+  }
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+         "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+         std::to_string(grains.points.size()) + "\" NumberOfCells=\"" +
+         std::to_string(grains.triangles.size()) + "\">\n<CellData>\n" +
+         vtk_data_array("Int64", "Name=\"inner\"", inner) +
+         vtk_data_array("Int64", "Name=\"outer\"", outer) + "</CellData>\n<Points>\n" +
+         vtk_data_array("Float64", "Name=\"Points\" NumberOfComponents=\"3\"", places) +
+         "</Points>\n<Cells>\n" + vtk_data_array("Int64", "Name=\"connectivity\"", corners) +
+         vtk_data_array("Int64", "Name=\"offsets\"", ends) +
+         vtk_data_array("UInt8", "Name=\"types\"", types) +
+         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& labels) {
+  const auto surfaces = surfaces_of(grains);
+  Vector3 low = grains.points.front();
+  Vector3 high = low;
+  for (const Vector3& p : grains.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const std::string box = " " + vector_text(low) + " " + vector_text(high) + " ";
+  std::vector<std::string> bounds(grains.grains.size());
+  std::vector<std::size_t> bound_counts(grains.grains.size(), 0);
+  std::string names;
+  std::string entities;
+  std::string elements;
+  std::size_t tag = 0;
+  std::size_t element = 0;
+  for (const auto& [sides, triangles] : surfaces) {
+    const std::string number = std::to_string(++tag);
+    const auto& [outer, inner] = sides;
+    names += "2 " + number + " \"" +
+             (outer < 0 ? "surface_" : "wall_" + side_text(outer, labels) + "_") +
+             side_text(inner, labels) + "\"\n";
+    entities += number + box + "1 " + number + " 0\n";
+    bounds[index(inner)] += " " + number;
+    ++bound_counts[index(inner)];
+    if (outer >= 0) {
+      bounds[index(outer)] += " -" + number;
+      ++bound_counts[index(outer)];
+    }
+    elements += "2 " + number + " 2 " + std::to_string(triangles.size()) + "\n";
+    for (const std::size_t t : triangles) {
+      elements += std::to_string(++element);
+      for (const std::int32_t corner : grains.triangles[t].corners) {
+        elements += " " + std::to_string(corner + 1);
+      }
+      elements += "\n";
+    }
+  }
+  for (std::size_t g = 0; g < bounds.size(); ++g) {
+    const std::string number = std::to_string(g + 1);
+    names += "3 " + number + " \"grain_" + std::to_string(labels[g]) + "\"\n";
+    entities +=
+        number + box + "1 " + number + " " + std::to_string(bound_counts[g]) + bounds[g] + "\n";
+  }
+  const std::string count = std::to_string(surfaces.size());
+  const std::string nodes = std::to_string(grains.points.size());
+  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" +
+                     std::to_string(surfaces.size() + bounds.size()) + "\n" + names +
+                     "$EndPhysicalNames\n$Entities\n0 0 " + count + " " +
+                     std::to_string(bounds.size()) + "\n" + entities + "$EndEntities\n$Nodes\n1 " +
+                     nodes + " 1 " + nodes + "\n2 1 0 " + nodes + "\n";
+  for (std::size_t v = 1; v <= grains.points.size(); ++v) text += std::to_string(v) + "\n";
+  for (const Vector3& p : grains.points) text += vector_text(p) + "\n";
+  const std::string all = std::to_string(grains.triangles.size());
+  return text + "$EndNodes\n$Elements\n" + count + " " + all + " 1 " + all + "\n" + elements +
+         "$EndElements\n";
+}
+
+std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& labels) {
+  std::string text =
+      csv_record({"first", "second", "area", "x", "y", "z", "nx", "ny", "nz", "triangles"});
+  for (const ConformingWall& wall : grains.walls) {
+    std::vector<std::string> fields = {side_text(wall.first, labels),
+                                       side_text(wall.second, labels), format_exact(wall.area)};
+    for (const Vector3& v : {wall.centre, wall.normal}) {
+      for (const double x : v) fields.push_back(format_exact(x));
+    }
+    fields.push_back(std::to_string(wall.triangles));
+    text += csv_record(fields);
+  }
+  return text;
+}
+
+std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
+                           const std::vector<std::string>& files) {
+  std::string text = csv_record({"grain", "nodes", "triangles", "voxels", "voxel_volume", "volume",
+                                 "contacts", "pieces", "left_out", "file"});
+  for (std::size_t g = 0; g < grains.grains.size(); ++g) {
+    const ConformingGrain& grain = grains.grains[g];
+    text += csv_record({std::to_string(labels[g]), std::to_string(grain.nodes),
+                        std::to_string(grain.triangles), std::to_string(grain.voxels),
+                        format_exact(grain.voxel_volume), format_exact(grain.volume),
+                        std::to_string(grain.contacts), std::to_string(grain.pieces),
+                        std::to_string(grain.left_out), files[g]});
+  }
+  return text;
+}
+
+std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
+  return {std::to_string(grains.grains.size()) + " grains with " +
+              std::to_string(grains.walls.size()) +
+              " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
+              std::to_string(grains.triangles.size()) + " triangles",
+          "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
+              format_percent(grains.edge_variation) + " of it",
+          "Volumes: exact within " + format_number(100.0 * grains.volume_error, 2) + " %",
+          "Intersecting pairs of triangles: " + std::to_string(grains.intersections)};
+}
+
+}  // namespace wscvt

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "toolbox/conforming/conforming_grains.h"
+#include "toolbox/volume/label_volume.h"
+
+namespace wscvt {
+
+/// Returns the voxels of labels, with one layer of background about them. `labels`: those that
+/// become grains, ascending; all others become background. Reads the volume from its current row
+/// on. The memory is 4 bytes per voxel.
+GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& labels,
+                              const Execution& execution);
+
+// Files of conforming grains. `labels`: of each grain. Numbers read back to the same bits.
+
+/// Returns VTK's XML: an unstructured grid of all triangles, each once, with the label on both
+/// sides as cell data, "inner" and "outer"; -1 is the background. The normals point to "outer".
+std::string walls_vtu(const ConformingGrains& grains, const std::vector<Label>& labels);
+
+/// Returns Gmsh 4.1: a physical surface per wall, "wall_A_B", or "surface_A" against the
+/// background, and a physical volume per grain, "grain_A", bounded by them.
+std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& labels);
+
+/// Returns CSV, a row per wall between two grains: first, second (labels), area, centre (x, y, z),
+/// normal (nx, ny, nz) from first to second, triangles.
+std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& labels);
+
+/// Returns CSV, a row per grain: grain (its label), nodes, triangles, voxels, voxel_volume, volume,
+/// contacts, pieces, left_out (voxels of smaller pieces), file.
+std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
+                           const std::vector<std::string>& files);
+
+/// Returns lines for a log.
+std::vector<std::string> conforming_lines(const ConformingGrains& grains);
+
+}  // namespace wscvt

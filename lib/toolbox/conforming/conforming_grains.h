@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "toolbox/conforming/grain_voxels.h"
+#include "toolbox/conforming/wall_triangle.h"
+#include "toolbox/volume/label_volume.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+#include "wscvt/base/sentence.h"
+
+namespace wscvt {
+
+/// Options of conform_grains.
+struct ConformingOptions {
+  double edge_length = 0.0;  ///< mean of all edges; length; 0: three voxels
+  int smoothing = 20;        ///< passes, see smoothed_surface
+};
+
+inline constexpr NumberOption<double> edge_length_option = {
+    "edge-length", "mean edge length",  0.0, std::numeric_limits<double>::infinity(),
+    Ends::Both,    "0 for three voxels"};
+
+/// A grain among others.
+struct ConformingGrain {
+  std::int64_t voxels = 0;       ///< of its largest piece, pores filled
+  std::size_t pieces = 0;        ///< of the label
+  std::int64_t left_out = 0;     ///< voxels of the other pieces
+  std::int64_t pore_voxels = 0;  ///< that were filled
+  double voxel_volume = 0.0;     ///< of `voxels`; length^3
+  double volume = 0.0;           ///< of the mesh
+  std::size_t nodes = 0;
+  std::size_t triangles = 0;
+  std::size_t contacts = 0;  ///< grains with a common wall
+};
+
+/// A wall between two grains, which may be several patches.
+struct ConformingWall {
+  std::int32_t first = 0;   ///< index of the grain
+  std::int32_t second = 0;  ///< larger
+  std::size_t triangles = 0;
+  double area = 0.0;                 ///< length^2
+  Vector3 centre = Vector3::Zero();  ///< of the area
+  Vector3 normal = Vector3::Zero();  ///< mean, from the first to the second; length 1
+};
+
+/// All grains as one complex of triangles: grains that touch have the nodes and triangles of their
+/// wall in common, walls that meet have their line in common.
+struct ConformingGrains {
+  std::vector<Vector3> points;
+  std::vector<WallTriangle> triangles;  ///< each once
+  std::vector<ConformingGrain> grains;
+  std::vector<ConformingWall> walls;  ///< between grains; by first, then second
+  std::size_t changed_voxels = 0;     ///< so that no grain touches itself in an edge or corner
+  std::size_t intersections = 0;      ///< pairs of triangles that are left
+  double mean_edge = 0.0;             ///< length
+  double edge_variation = 0.0;        ///< standard deviation over mean
+  double volume_error = 0.0;          ///< largest, relative
+};
+
+/// Remeshes all grains of a volume at once. `voxels`: grains are numbered from 0; the outermost
+/// voxels are background. `grains`: their number. A grain's largest piece is used and its pores are
+/// filled. Each grain becomes closed, manifold and outward, and has the volume of its voxels. Holes
+/// that several grains enclose together stay.
+///
+/// The edges are even along walls and lines. Their mean is the wanted length if the grains are
+/// large against it; a grain whose volume is that of a cube of less than two edges along a side has
+/// shorter ones. Nodes of triangles that would intersect are moved, up to 30 times; `intersections`
+/// says what is left. The result does not depend on the number of threads. Throws Error:
+/// InvalidInput without grains, for a grain without voxels, and for an edge length below a voxel's;
+/// NumericalFailure as make_well_composed does; Cancelled.
+ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
+                                const VolumeGeometry& geometry, const ConformingOptions& options,
+                                const Execution& execution);
+
+/// Returns the closed mesh of a grain. Its nodes and triangles are in the order of the complex, so
+/// that two grains have the same numbers, to the bit, on their wall.
+IndexedMesh mesh_of(const ConformingGrains& grains, std::size_t grain);
+
+}  // namespace wscvt

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/conforming/dense_walls.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+namespace {
+
+constexpr std::size_t smoothing_block = 8192;  ///< vertices
+
+/// Returns the neighbours of a vertex along lines: the ends of edges that are not between exactly
+/// two faces of one wall. Ascending.
+std::vector<std::int32_t> line_ends(const std::vector<WallQuad>& quads, const Groups& quads_at,
+                                    std::size_t vertex) {
+  std::vector<std::tuple<std::int32_t, std::int32_t, std::int32_t>> edges;
+  for (const std::int32_t* q = quads_at.begin(vertex); q != quads_at.end(vertex); ++q) {
+    const WallQuad& quad = quads[index(*q)];
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (index(quad.corners[k]) != vertex) continue;
+      edges.emplace_back(quad.corners[(k + 1) % 4], quad.inner, quad.outer);
+      edges.emplace_back(quad.corners[(k + 3) % 4], quad.inner, quad.outer);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<std::int32_t> ends;
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t next = k + 1;
+    while (next < edges.size() && std::get<0>(edges[next]) == std::get<0>(edges[k])) ++next;
+    if (next != k + 2 || edges[k] != edges[k + 1]) ends.push_back(std::get<0>(edges[k]));
+    k = next;
+  }
+  return ends;
+}
+
+/// What a displacement does to the volume of a grain.
+struct VolumeGradient {
+  std::int32_t grain;
+  Vector3 gradient;
+};
+
+/// Collects gradients at a vertex; few grains.
+void add_gradient(std::vector<VolumeGradient>& list, std::int32_t grain, const Vector3& gradient) {
+  for (VolumeGradient& one : list) {
+    if (one.grain != grain) continue;
+    one.gradient += gradient;
+    return;
+  }
+  list.push_back({grain, gradient});
+}
+
+/// Rows of a symmetric matrix of grains that touch.
+class GrainMatrix {
+ public:
+  explicit GrainMatrix(std::size_t grains) : rows_(grains) {}
+
+  void add(std::int32_t i, std::int32_t j, double value) {
+    for (auto& [column, sum] : rows_[index(i)]) {
+      if (column != j) continue;
+      sum += value;
+      return;
+    }
+    rows_[index(i)].emplace_back(j, value);
+  }
+
+  /// Solves by conjugate gradients, scaled by the diagonal.
+  std::vector<double> solve(const std::vector<double>& b) const {
+    const std::size_t n = rows_.size();
+    std::vector<double> scale(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (const auto& [j, value] : rows_[i]) {
+        if (index(j) == i && value > 0.0) scale[i] = 1.0 / value;
+      }
+    }
+    std::vector<double> x(n, 0.0);
+    std::vector<double> r = b;
+    std::vector<double> p(n, 0.0);
+    std::vector<double> ap(n, 0.0);
+    double before = 1.0;
+    double first = 0.0;
+    for (int step = 0; step < 500; ++step) {
+      double now = 0.0;
+      for (std::size_t i = 0; i < n; ++i) now += r[i] * scale[i] * r[i];
+      if (step == 0) first = now;
+      if (now <= 1e-30 * first) break;
+      for (std::size_t i = 0; i < n; ++i) {
+        p[i] = scale[i] * r[i] + (step == 0 ? 0.0 : now / before) * p[i];
+      }
+      before = now;
+      double curvature = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        ap[i] = 0.0;
+        for (const auto& [j, value] : rows_[i]) ap[i] += value * p[index(j)];
+        curvature += p[i] * ap[i];
+      }
+      if (!(curvature > 0.0)) break;
+      for (std::size_t i = 0; i < n; ++i) {
+        x[i] += now / curvature * p[i];
+        r[i] -= now / curvature * ap[i];
+      }
+    }
+    return x;
+  }
+
+ private:
+  std::vector<std::vector<std::pair<std::int32_t, double>>> rows_;
+};
+
+Groups corners_at(const std::vector<WallTriangle>& triangles, std::size_t points) {
+  return counting_sort(triangles.size(), points, [&](std::size_t t, const auto& visit) {
+    for (const std::int32_t corner : triangles[t].corners) visit(index(corner));
+  });
+}
+
+}  // namespace
+
+std::vector<double> wall_volumes(const std::vector<Vector3>& points,
+                                 const std::vector<WallTriangle>& triangles, std::size_t grains) {
+  // About a vertex of each grain, because cones from a distant point lose digits.
+  std::vector<std::int32_t> origin(grains, -1);
+  std::vector<double> sums(grains, 0.0);
+  for (const WallTriangle& t : triangles) {
+    for (const std::int32_t grain : {t.inner, t.outer}) {
+      if (grain < 0) continue;
+      if (origin[index(grain)] < 0) origin[index(grain)] = t.corners[0];
+      const Vector3& o = points[index(origin[index(grain)])];
+      const double six =
+          six_volumes(points[index(t.corners[0])] - o, points[index(t.corners[1])] - o,
+                      points[index(t.corners[2])] - o);
+      sums[index(grain)] += grain == t.inner ? six : -six;
+    }
+  }
+  for (double& sum : sums) sum /= 6.0;
+  return sums;
+}
+
+double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
+                       const std::vector<double>& volumes) {
+  const Groups at = corners_at(triangles, points.size());
+  std::vector<VolumeGradient> list;
+  const auto gradients_at = [&](std::size_t v) {
+    list.clear();
+    double area = 0.0;
+    for (const std::int32_t* k = at.begin(v); k != at.end(v); ++k) {
+      const WallTriangle& t = triangles[index(*k)];
+      const Vector3 normal = doubled_area_normal(
+          points[index(t.corners[0])], points[index(t.corners[1])], points[index(t.corners[2])]);
+      area += normal.norm() / 6.0;
+      add_gradient(list, t.inner, normal / 6.0);
+      if (t.outer >= 0) add_gradient(list, t.outer, -normal / 6.0);
+    }
+    return area;
+  };
+  double worst = 0.0;
+  for (int step = 0; step < 20; ++step) {
+    const std::vector<double> now = wall_volumes(points, triangles, volumes.size());
+    std::vector<double> missing(volumes.size(), 0.0);
+    worst = 0.0;
+    for (std::size_t g = 0; g < volumes.size(); ++g) {
+      if (!(volumes[g] > 0.0)) continue;
+      missing[g] = volumes[g] - now[g];
+      worst = std::max(worst, std::abs(missing[g]) / volumes[g]);
+    }
+    if (worst < 1e-13) break;
+    GrainMatrix matrix(volumes.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const double area = gradients_at(v);
+      if (!(area > 0.0)) continue;
+      for (const VolumeGradient& a : list) {
+        for (const VolumeGradient& b : list) {
+          matrix.add(a.grain, b.grain, a.gradient.dot(b.gradient) / area);
+        }
+      }
+    }
+    std::vector<double> lengths = matrix.solve(missing);
+    for (std::size_t g = 0; g < lengths.size(); ++g) {
+      // A grain that is nearly flat asks for long moves, which turn its neighbours inside out.
+      const double most = 0.1 * portable::cbrt(std::max(volumes[g], 0.0));
+      lengths[g] = std::clamp(lengths[g], -most, most);
+    }
+    std::vector<Vector3> moved = points;
+    for (std::size_t v = 0; v < points.size(); ++v) {
+      const double area = gradients_at(v);
+      if (!(area > 0.0)) continue;
+      for (const VolumeGradient& one : list) {
+        moved[v] += lengths[index(one.grain)] / area * one.gradient;
+      }
+    }
+    points = std::move(moved);
+  }
+  return worst;
+}
+
+DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
+                       const std::vector<double>& volumes, const Execution& execution) {
+  {
+    const Groups quads_at = counting_sort(
+        walls.quads.size(), walls.corners.size(), [&](std::size_t q, const auto& visit) {
+          for (const std::int32_t corner : walls.quads[q].corners) {
+            visit(index(corner));
+          }
+        });
+    find_places(walls.quads, quads_at);
+    smooth(walls, quads_at, passes, execution);
+  }
+  for (Vector3& point : points_) point = geometry.point(point);
+  const bool is_left_handed = geometry.axes.determinant() < 0.0;  // faces are inside out
+  triangles_.reserve(2 * walls.quads.size());
+  for (const WallQuad& quad : walls.quads) {
+    std::array<std::int32_t, 4> c = quad.corners;
+    if (is_left_handed) std::reverse(c.begin(), c.end());
+    const auto length = [&](std::size_t a, std::size_t b) {
+      return (points_[index(c[a])] - points_[index(c[b])]).squaredNorm();
+    };
+    if (length(0, 2) > length(1, 3)) std::rotate(c.begin(), c.begin() + 1, c.end());
+    triangles_.push_back({{c[0], c[1], c[2]}, quad.inner, quad.outer});
+    triangles_.push_back({{c[0], c[2], c[3]}, quad.inner, quad.outer});
+  }
+  walls = {};
+  execution.report(0.8, "Restoring the volumes");
+  restore_volumes(points_, triangles_, volumes);
+  triangles_at_ = corners_at(triangles_, points_.size());
+}
+
+void DenseWalls::find_places(const std::vector<WallQuad>& quads, const Groups& quads_at) {
+  const std::size_t count = quads_at.starts.size() - 1;
+  places_.assign(count, WallPlace::Wall);
+  line_of_.assign(count, -1);
+  for (std::size_t v = 0; v < count; ++v) {
+    // Most vertices have faces of one wall only.
+    const WallQuad& first = quads[index(*quads_at.begin(v))];
+    const bool is_within = std::all_of(quads_at.begin(v), quads_at.end(v), [&](std::int32_t q) {
+      return quads[index(q)].inner == first.inner && quads[index(q)].outer == first.outer;
+    });
+    if (is_within) continue;
+    std::vector<std::int32_t> ends = line_ends(quads, quads_at, v);
+    if (ends.empty()) continue;
+    places_[v] = ends.size() == 2 ? WallPlace::Line : WallPlace::Point;
+    line_of_[v] = static_cast<std::int32_t>(line_neighbours_.size());
+    line_neighbours_.push_back(std::move(ends));
+  }
+}
+
+void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int passes,
+                        const Execution& execution) {
+  // Taubin's pass band of 0.1, as 1 / step + 1 / back = 0.1: slower variations stay.
+  constexpr double step = 0.6307;
+  constexpr double back = -0.6732;
+  std::vector<Vector3> corners;
+  corners.reserve(walls.corners.size());
+  for (const VoxelCounts& c : walls.corners) corners.emplace_back(c[0], c[1], c[2]);
+  points_ = corners;
+  std::vector<Vector3> moved(corners.size());
+  const auto mean_at = [&](std::size_t v) {
+    Vector3 sum = Vector3::Zero();
+    if (line_of_[v] >= 0) {
+      const std::vector<std::int32_t>& ends = line_neighbours_[index(line_of_[v])];
+      for (const std::int32_t end : ends) sum += points_[index(end)];
+      return Vector3(sum / static_cast<double>(ends.size()));
+    }
+    int count = 0;
+    for (const std::int32_t* q = quads_at.begin(v); q != quads_at.end(v); ++q) {
+      const auto& c = walls.quads[index(*q)].corners;
+      const auto k = static_cast<std::size_t>(
+          std::find(c.begin(), c.end(), static_cast<std::int32_t>(v)) - c.begin());
+      sum += points_[index(c[(k + 1) % 4])] + points_[index(c[(k + 3) % 4])];
+      count += 2;
+    }
+    return Vector3(sum / count);
+  };
+  for (int pass = 0; pass < passes; ++pass) {
+    execution.report(0.8 * pass / passes, "Smoothing the walls");
+    for (const double factor : {step, back}) {
+      execution.parallel_for(
+          corners.size(), smoothing_block, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v) {
+              // A line has larger steps: it jumps where the steps of its walls meet.
+              const double most = places_[v] == WallPlace::Line ? 0.75 : 0.5;
+              const Vector3 to = points_[v] + factor * (mean_at(v) - points_[v]) - corners[v];
+              moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
+            }
+          });
+      points_.swap(moved);
+    }
+  }
+}
+
+WallPoint DenseWalls::nearest_on_wall(std::int32_t from, const Vector3& target, std::int32_t inner,
+                                      std::int32_t outer) const {
+  const auto visit_corners = [&](std::int32_t vertex, const auto& visit) {
+    for (const std::int32_t* t = triangles_at_.begin(index(vertex));
+         t != triangles_at_.end(index(vertex)); ++t) {
+      const WallTriangle& triangle = triangles_[index(*t)];
+      if (triangle.inner == inner && triangle.outer == outer) visit(triangle.corners);
+    }
+  };
+  std::int32_t best = from;
+  double distance = (points_[index(from)] - target).squaredNorm();
+  for (std::int32_t at = -1; at != best;) {
+    at = best;
+    visit_corners(at, [&](const Triangle& corners) {
+      for (const std::int32_t corner : corners) {
+        const double d = (points_[index(corner)] - target).squaredNorm();
+        if (d >= distance) continue;
+        distance = d;
+        best = corner;
+      }
+    });
+  }
+  WallPoint result{points_[index(best)], best};
+  visit_corners(best, [&](const Triangle& c) {
+    const Vector3& p = points_[index(c[0])];
+    const Vector3& q = points_[index(c[1])];
+    const Vector3& r = points_[index(c[2])];
+    const Vector3 w = nearest_weights(p, q, r, target);
+    const Vector3 near = w[0] * p + w[1] * q + w[2] * r;
+    const double d = (near - target).squaredNorm();
+    if (!(d < distance)) return;  // not a number for triangles without area
+    distance = d;
+    result.point = near;
+  });
+  return result;
+}
+
+WallPoint DenseWalls::nearest_on_line(std::int32_t from, const Vector3& target) const {
+  std::int32_t best = from;
+  double distance = (points_[index(from)] - target).squaredNorm();
+  for (std::int32_t at = -1; at != best;) {
+    at = best;
+    for (const std::int32_t end : line_neighbours_[index(line_of_[index(at)])]) {
+      const double d = (points_[index(end)] - target).squaredNorm();
+      if (d >= distance || places_[index(end)] != WallPlace::Line) continue;
+      distance = d;
+      best = end;
+    }
+  }
+  WallPoint result{points_[index(best)], best};
+  for (const std::int32_t end : line_neighbours_[index(line_of_[index(best)])]) {
+    const Vector3 along = points_[index(end)] - points_[index(best)];
+    const double square = along.squaredNorm();
+    if (!(square > 0.0)) continue;
+    const double share = std::clamp(along.dot(target - points_[index(best)]) / square, 0.0, 1.0);
+    const Vector3 near = points_[index(best)] + share * along;
+    const double d = (near - target).squaredNorm();
+    if (!(d < distance)) continue;
+    distance = d;
+    result.point = near;
+  }
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "toolbox/conforming/voxel_walls.h"
+#include "toolbox/conforming/wall_triangle.h"
+#include "wscvt/base/counting_sort.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// The place of a vertex among the walls.
+enum class WallPlace : std::uint8_t {
+  Wall,   ///< within a wall
+  Line,   ///< on a line where walls meet
+  Point,  ///< where lines meet or end
+};
+
+/// A place on the dense walls.
+struct WallPoint {
+  Vector3 point = Vector3::Zero();
+  std::int32_t vertex = -1;  ///< near it
+};
+
+/// The smoothed walls of voxels. New nodes are placed on them.
+class DenseWalls {
+ public:
+  /// Smooths the faces of voxels as smoothed_surface does, each kind of place for itself: walls
+  /// within their surface, lines along themselves. Then all grains get their volumes, see
+  /// restore_volumes. `volumes`: of each grain, in the coordinates of `geometry`.
+  DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
+             const std::vector<double>& volumes, const Execution& execution);
+
+  const std::vector<Vector3>& points() const { return points_; }
+  const std::vector<WallTriangle>& triangles() const { return triangles_; }
+  const std::vector<WallPlace>& places() const { return places_; }
+
+  /// Returns a place of the wall between two grains near `target`: goes from vertex to vertex
+  /// towards it, from a vertex of the wall on.
+  WallPoint nearest_on_wall(std::int32_t from, const Vector3& target, std::int32_t inner,
+                            std::int32_t outer) const;
+
+  /// Returns a place of the line of a vertex that is on a line near `target`, as above.
+  WallPoint nearest_on_line(std::int32_t from, const Vector3& target) const;
+
+ private:
+  void find_places(const std::vector<WallQuad>& quads, const Groups& quads_at);
+  void smooth(const VoxelWalls& walls, const Groups& quads_at, int passes,
+              const Execution& execution);
+
+  std::vector<Vector3> points_;
+  std::vector<WallTriangle> triangles_;
+  Groups triangles_at_;  ///< each vertex
+  std::vector<WallPlace> places_;
+  std::vector<std::int32_t> line_of_;                       ///< row of line_neighbours_, or -1
+  std::vector<std::vector<std::int32_t>> line_neighbours_;  ///< along lines, of lines and points
+};
+
+/// Moves vertices so that every grain has its volume: along the walls' normals, all vertices of a
+/// grain's side by the same length, the smallest moves for it (least squares, weighted by area).
+/// Returns the largest difference that is left, relative. Volumes that are not above 0 are not
+/// restored.
+double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
+                       const std::vector<double>& volumes);
+
+/// Returns the volume of each grain.
+std::vector<double> wall_volumes(const std::vector<Vector3>& points,
+                                 const std::vector<WallTriangle>& triangles, std::size_t grains);
+
+}  // namespace wscvt

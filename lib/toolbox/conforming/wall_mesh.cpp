@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/conforming/wall_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+namespace {
+
+bool has(const std::vector<std::int32_t>& list, std::int32_t v) {
+  return std::find(list.begin(), list.end(), v) != list.end();
+}
+
+bool same_wall(const WallTriangle& a, const WallTriangle& b) {
+  return a.inner == b.inner && a.outer == b.outer;
+}
+
+/// Four times the area over the sum of the squared edges, scaled: 1 for even edges, 0 for a flat
+/// triangle.
+double evenness(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double squares = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
+  constexpr double twice_root_3 = 3.4641016151377544;
+  return squares > 0.0 ? twice_root_3 * doubled_area_normal(a, b, c).norm() / squares : 0.0;
+}
+
+}  // namespace
+
+WallMesh::WallMesh(const DenseWalls& dense)
+    : points(dense.points()), triangles(dense.triangles()), places(dense.places()) {
+  anchors.resize(points.size());
+  for (std::size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<std::int32_t>(v);
+  link();
+}
+
+void WallMesh::link() {
+  first_.assign(points.size(), -1);
+  next_.assign(3 * triangles.size(), -1);
+  for (std::size_t t = triangles.size(); t-- > 0;) {
+    for (std::size_t k = 0; k < 3; ++k) enter(t, k);
+  }
+}
+
+void WallMesh::enter(std::size_t t, std::size_t k) {
+  const std::size_t v = index(triangles[t].corners[k]);
+  next_[3 * t + k] = first_[v];
+  first_[v] = static_cast<std::int32_t>(3 * t + k);
+}
+
+void WallMesh::remove(std::size_t t, std::size_t k) {
+  const auto c = static_cast<std::int32_t>(3 * t + k);
+  std::int32_t* place = &first_[index(triangles[t].corners[k])];
+  while (*place != c) place = &next_[index(*place)];
+  *place = next_[index(c)];
+}
+
+void WallMesh::kill(std::size_t t) {
+  for (std::size_t k = 0; k < 3; ++k) remove(t, k);
+  triangles[t].corners = {-1, -1, -1};
+}
+
+std::size_t WallMesh::corner(std::size_t t, std::int32_t v) const {
+  const Triangle& c = triangles[t].corners;
+  return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : 3;
+}
+
+std::vector<std::size_t> WallMesh::triangles_at(std::int32_t a, std::int32_t b) const {
+  std::vector<std::size_t> list;
+  visit_triangles(a, [&](std::size_t t) {
+    if (corner(t, b) < 3) list.push_back(t);
+  });
+  return list;
+}
+
+bool WallMesh::is_line(const std::vector<std::size_t>& at_edge) const {
+  return at_edge.size() != 2 || !same_wall(triangles[at_edge[0]], triangles[at_edge[1]]);
+}
+
+std::vector<std::int32_t> WallMesh::line_neighbours(std::int32_t v) const {
+  std::vector<std::int32_t> seen;
+  std::vector<std::int32_t> found;
+  visit_triangles(v, [&](std::size_t t) {
+    for (const std::int32_t other : triangles[t].corners) {
+      if (other == v || places[index(other)] == WallPlace::Wall || has(seen, other)) continue;
+      seen.push_back(other);
+      if (is_line(triangles_at(v, other))) found.push_back(other);
+    }
+  });
+  return found;
+}
+
+bool WallMesh::keeps_links(std::int32_t gone, std::int32_t kept,
+                           const std::vector<std::size_t>& at_edge) const {
+  std::vector<std::int32_t> opposite;
+  for (const std::size_t t : at_edge) {
+    for (const std::int32_t v : triangles[t].corners) {
+      if (v == gone || v == kept) continue;
+      if (has(opposite, v)) return false;
+      opposite.push_back(v);
+    }
+  }
+  std::vector<std::int32_t> about;
+  visit_triangles(gone, [&](std::size_t t) {
+    for (const std::int32_t v : triangles[t].corners) {
+      if (v != gone && !has(about, v)) about.push_back(v);
+    }
+  });
+  bool keeps = true;
+  visit_triangles(kept, [&](std::size_t t) {
+    const Triangle& c = triangles[t].corners;
+    if (corner(t, gone) < 3) return;
+    int among_opposite = 0;
+    for (const std::int32_t v : c) {
+      if (v == kept) continue;
+      const bool is_opposite = has(opposite, v);
+      if (has(about, v) && !is_opposite) keeps = false;
+      among_opposite += is_opposite ? 1 : 0;
+    }
+    if (among_opposite < 2) return;
+    // Both triangles over this edge would become one.
+    const std::size_t k = corner(t, kept);
+    const std::int32_t a = c[following(k)];
+    for (const std::size_t other : triangles_at(gone, a)) {
+      if (corner(other, c[preceding(k)]) < 3) keeps = false;
+    }
+  });
+  return keeps;
+}
+
+bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, const Vector3& position,
+                           double longest) const {
+  // A triangle may turn by 60 degrees, and its shape may not get worse than a third of even.
+  constexpr double least_cosine = 0.5;
+  constexpr double least_evenness = 0.33;
+  bool keeps = true;
+  visit_triangles(moved, [&](std::size_t t) {
+    if (!keeps || corner(t, other) < 3) return;
+    const std::size_t k = corner(t, moved);
+    const Triangle& c = triangles[t].corners;
+    const Vector3& a = points[index(c[following(k)])];
+    const Vector3& b = points[index(c[preceding(k)])];
+    const Vector3& p = points[index(moved)];
+    const double limit = longest * longest;
+    if (std::max((a - position).squaredNorm(), (b - position).squaredNorm()) > limit) keeps = false;
+    const Vector3 before = doubled_area_normal(p, a, b);
+    const Vector3 after = doubled_area_normal(position, a, b);
+    if (!(after.dot(before) > least_cosine * after.norm() * before.norm())) keeps = false;
+    const double shape = evenness(position, a, b);
+    if (shape < least_evenness && shape < evenness(p, a, b)) keeps = false;
+  });
+  return keeps;
+}
+
+bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& position,
+                        double longest) {
+  const WallPlace place = places[index(gone)];
+  if (place == WallPlace::Point || place > places[index(kept)]) return false;
+  const std::vector<std::size_t> at_edge = triangles_at(gone, kept);
+  if (place == WallPlace::Line) {
+    if (!is_line(at_edge)) return false;
+    for (const std::int32_t end : line_neighbours(gone)) {
+      if (end != kept && is_line(triangles_at(end, kept)) && !triangles_at(end, kept).empty()) {
+        return false;
+      }
+    }
+  }
+  if (!keeps_links(gone, kept, at_edge) || !keeps_shape(gone, kept, position, longest)) {
+    return false;
+  }
+  if (position != points[index(kept)] && !keeps_shape(kept, gone, position, longest)) return false;
+  for (const std::size_t t : at_edge) kill(t);
+  while (first_[index(gone)] >= 0) {
+    const std::size_t c = index(first_[index(gone)]);
+    remove(c / 3, c % 3);
+    triangles[c / 3].corners[c % 3] = kept;
+    enter(c / 3, c % 3);
+  }
+  points[index(kept)] = position;
+  return true;
+}
+
+std::int32_t WallMesh::split(std::int32_t a, std::int32_t b) {
+  const std::vector<std::size_t> at_edge = triangles_at(a, b);
+  const bool is_on_line = is_line(at_edge);
+  const auto middle = static_cast<std::int32_t>(points.size());
+  const WallPlace place = is_on_line ? WallPlace::Line : WallPlace::Wall;
+  points.emplace_back(0.5 * (points[index(a)] + points[index(b)]));
+  places.push_back(place);
+  // A line's node needs an anchor on the line, which points are not; -1: there is none.
+  std::int32_t anchor = places[index(a)] == place ? anchors[index(a)] : anchors[index(b)];
+  if (is_on_line && places[index(a)] != place && places[index(b)] != place) anchor = -1;
+  anchors.push_back(anchor);
+  first_.push_back(-1);
+  for (const std::size_t t : at_edge) {
+    WallTriangle half = triangles[t];
+    half.corners[corner(t, a)] = middle;
+    const std::size_t k = corner(t, b);
+    remove(t, k);
+    triangles[t].corners[k] = middle;
+    enter(t, k);
+    const std::size_t added = triangles.size();
+    triangles.push_back(half);
+    next_.insert(next_.end(), 3, -1);
+    for (std::size_t c = 0; c < 3; ++c) enter(added, c);
+  }
+  return middle;
+}
+
+bool WallMesh::flip(std::int32_t a, std::int32_t b) {
+  const std::vector<std::size_t> at_edge = triangles_at(a, b);
+  if (is_line(at_edge)) return false;
+  std::size_t s = at_edge[0];
+  std::size_t t = at_edge[1];
+  // s = (a, b, c), t = (b, a, d)
+  if (triangles[s].corners[following(corner(s, a))] != b) std::swap(s, t);
+  const std::int32_t c = triangles[s].corners[following(corner(s, b))];
+  const std::int32_t d = triangles[t].corners[following(corner(t, a))];
+  const Vector3& pa = points[index(a)];
+  const Vector3& pb = points[index(b)];
+  const Vector3& pc = points[index(c)];
+  const Vector3& pd = points[index(d)];
+  const double before = std::min(evenness(pa, pb, pc), evenness(pb, pa, pd));
+  const double after = std::min(evenness(pa, pd, pc), evenness(pd, pb, pc));
+  if (!(after > before + 1e-6) || c == d || !triangles_at(c, d).empty()) return false;
+  const Vector3 old_s = doubled_area_normal(pa, pb, pc);
+  const Vector3 old_t = doubled_area_normal(pb, pa, pd);
+  const Vector3 new_s = doubled_area_normal(pa, pd, pc);
+  const Vector3 new_t = doubled_area_normal(pd, pb, pc);
+  const auto cosine = [](const Vector3& x, const Vector3& y) {
+    const double lengths = x.norm() * y.norm();
+    return lengths > 0.0 ? x.dot(y) / lengths : -1.0;
+  };
+  // The new edge may bend by 60 degrees, or less than the old one.
+  constexpr double least_cosine = 0.5;
+  if (cosine(new_s, new_t) < std::min(least_cosine, cosine(old_s, old_t))) return false;
+  const Vector3 mean = old_s + old_t;
+  if (!(std::min(cosine(new_s, mean), cosine(new_t, mean)) > least_cosine)) return false;
+  for (const std::size_t triangle : {s, t}) {
+    for (std::size_t k = 0; k < 3; ++k) remove(triangle, k);
+  }
+  triangles[s].corners = {a, d, c};
+  triangles[t].corners = {d, b, c};
+  for (const std::size_t triangle : {s, t}) {
+    for (std::size_t k = 0; k < 3; ++k) enter(triangle, k);
+  }
+  return true;
+}
+
+void WallMesh::compact() {
+  std::vector<std::int32_t> number(points.size(), -1);
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (first_[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(kept);
+    points[kept] = points[v];
+    places[kept] = places[v];
+    anchors[kept] = anchors[v];
+    ++kept;
+  }
+  points.resize(kept);
+  places.resize(kept);
+  anchors.resize(kept);
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(),
+                                 [](const WallTriangle& t) { return t.corners[0] < 0; }),
+                  triangles.end());
+  for (WallTriangle& t : triangles) {
+    for (std::int32_t& corner : t.corners) corner = number[index(corner)];
+  }
+  link();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "toolbox/conforming/dense_walls.h"
+#include "wscvt/base/half_edges.h"
+
+namespace wscvt {
+
+/// The walls as triangles that can be changed. Every change keeps what touches what: each grain
+/// stays a closed manifold, and walls keep their lines and points.
+class WallMesh {
+ public:
+  explicit WallMesh(const DenseWalls& dense);
+
+  std::size_t vertex_count() const { return points.size(); }
+  bool is_alive(std::size_t t) const { return triangles[t].corners[0] >= 0; }
+
+  /// Calls visit(t) for each triangle at a vertex.
+  template <class Visit>
+  void visit_triangles(std::int32_t v, const Visit& visit) const {
+    for (std::int32_t c = first_[index(v)]; c >= 0; c = next_[index(c)]) visit(index(c) / 3);
+  }
+
+  /// Returns the triangles at an edge.
+  std::vector<std::size_t> triangles_at(std::int32_t a, std::int32_t b) const;
+
+  /// Returns the neighbours of a vertex that is on a line, along lines.
+  std::vector<std::int32_t> line_neighbours(std::int32_t v) const;
+
+  /// Whether the triangles of an edge make it part of a line.
+  bool is_line(const std::vector<std::size_t>& at_edge) const;
+
+  /// Joins `gone` with `kept` at a position, if nothing but the triangles at their edge vanishes,
+  /// no triangle turns over or becomes a sliver, and no edge becomes too long. Returns whether it
+  /// did.
+  bool collapse(std::int32_t gone, std::int32_t kept, const Vector3& position, double longest);
+
+  /// Adds a node in the middle of an edge.
+  std::int32_t split(std::int32_t a, std::int32_t b);
+
+  /// Turns the edge of two triangles of one wall to their other corners, if their shape gets better
+  /// and the surface does not bend more. Returns whether it did.
+  bool flip(std::int32_t a, std::int32_t b);
+
+  /// Removes dead triangles and vertices without triangles.
+  void compact();
+
+  std::vector<Vector3> points;
+  std::vector<WallTriangle> triangles;  ///< dead ones have the corner -1
+  std::vector<WallPlace> places;        ///< of the vertices
+  std::vector<std::int32_t> anchors;    ///< a vertex of the dense walls near each vertex
+
+ private:
+  void link();
+  void enter(std::size_t t, std::size_t k);
+  void remove(std::size_t t, std::size_t k);
+  void kill(std::size_t t);
+  std::size_t corner(std::size_t t, std::int32_t v) const;
+  bool keeps_links(std::int32_t gone, std::int32_t kept,
+                   const std::vector<std::size_t>& at_edge) const;
+  bool keeps_shape(std::int32_t moved, std::int32_t other, const Vector3& position,
+                   double longest) const;
+
+  std::vector<std::int32_t> first_;  ///< 3 t + k of a vertex; -1: none
+  std::vector<std::int32_t> next_;   ///< of the same vertex, by 3 t + k
+};
+
+}  // namespace wscvt

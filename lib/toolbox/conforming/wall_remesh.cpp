@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/conforming/wall_remesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+
+namespace {
+
+// Of the wanted length; the usual bounds, between which splitting and collapsing cannot alternate.
+constexpr double longest_share = 4.0 / 3.0;
+constexpr double shortest_share = 4.0 / 5.0;
+
+constexpr std::size_t relaxation_block = 2048;  ///< vertices
+
+}  // namespace
+
+WallRemesher::WallRemesher(const DenseWalls& dense, std::vector<double> edges)
+    : dense_(dense), edges_(std::move(edges)), mesh_(dense) {}
+
+double WallRemesher::edge_of(const WallTriangle& t) const {
+  const double inner = edges_[index(t.inner)];
+  return factor_ * (t.outer < 0 ? inner : std::sqrt(inner * edges_[index(t.outer)]));
+}
+
+double WallRemesher::wanted(const std::vector<std::size_t>& at_edge) const {
+  double sum = 0.0;
+  for (const std::size_t t : at_edge) sum += edge_of(mesh_.triangles[t]);
+  return sum / static_cast<double>(at_edge.size());
+}
+
+void WallRemesher::collapse_short(double most) {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
+      std::int32_t a = mesh_.triangles[t].corners[k];
+      std::int32_t b = mesh_.triangles[t].corners[following(k)];
+      const double square = (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm();
+      if (square > most * most) continue;
+      const double length = wanted(mesh_.triangles_at(a, b));
+      const double limit = std::min(most, shortest_share * length);
+      if (square > limit * limit) continue;
+      if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
+      const bool is_between = mesh_.places[index(a)] == mesh_.places[index(b)];
+      const Vector3 position =
+          is_between ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
+                     : mesh_.points[index(b)];
+      if (mesh_.collapse(a, b, position, longest_share * std::min(length, 2.0 * most))) k = 3;
+    }
+  }
+}
+
+void WallRemesher::split_long() {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!mesh_.is_alive(t)) continue;
+    // Longest first; a triangle is looked at again after a split.
+    for (bool again = true; again;) {
+      again = false;
+      std::size_t longest = 0;
+      double square = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Triangle& c = mesh_.triangles[t].corners;
+        const double s =
+            (mesh_.points[index(c[k])] - mesh_.points[index(c[following(k)])]).squaredNorm();
+        if (s <= square) continue;
+        square = s;
+        longest = k;
+      }
+      const std::int32_t a = mesh_.triangles[t].corners[longest];
+      const std::int32_t b = mesh_.triangles[t].corners[following(longest)];
+      const double limit = longest_share * wanted(mesh_.triangles_at(a, b));
+      if (square <= limit * limit) continue;
+      mesh_.split(a, b);
+      again = true;
+    }
+  }
+}
+
+void WallRemesher::flip_all() {
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
+        const std::int32_t a = mesh_.triangles[t].corners[k];
+        const std::int32_t b = mesh_.triangles[t].corners[following(k)];
+        if (mesh_.flip(a, b)) break;
+      }
+    }
+  }
+}
+
+Vector3 WallRemesher::relaxed(std::int32_t v) const {
+  const Vector3& p = mesh_.points[index(v)];
+  if (mesh_.places[index(v)] == WallPlace::Line) {
+    const std::vector<std::int32_t> ends = mesh_.line_neighbours(v);
+    if (ends.size() != 2) return p;
+    return 0.5 * p + 0.25 * (mesh_.points[index(ends[0])] + mesh_.points[index(ends[1])]);
+  }
+  // The centroid of the triangles about the node, without the part along the normal.
+  Vector3 sum = Vector3::Zero();
+  Vector3 normal = Vector3::Zero();
+  double area = 0.0;
+  mesh_.visit_triangles(v, [&](std::size_t t) {
+    const Triangle& c = mesh_.triangles[t].corners;
+    const Vector3& x = mesh_.points[index(c[0])];
+    const Vector3& y = mesh_.points[index(c[1])];
+    const Vector3& z = mesh_.points[index(c[2])];
+    const Vector3 n = doubled_area_normal(x, y, z);
+    const double weight = n.norm();
+    normal += n;
+    area += weight;
+    sum += weight / 3.0 * (x + y + z);
+  });
+  const double square = normal.squaredNorm();
+  if (!(area > 0.0) || !(square > 0.0)) return p;
+  const Vector3 move = sum / area - p;
+  return p + move - move.dot(normal) / square * normal;
+}
+
+WallPoint WallRemesher::placed(std::int32_t v, const Vector3& target) const {
+  const std::int32_t anchor = mesh_.anchors[index(v)];
+  if (anchor < 0) return {target, anchor};
+  if (mesh_.places[index(v)] == WallPlace::Line) return dense_.nearest_on_line(anchor, target);
+  WallPoint place{target, anchor};
+  bool is_first = true;
+  mesh_.visit_triangles(v, [&](std::size_t t) {
+    if (!is_first) return;
+    is_first = false;
+    place =
+        dense_.nearest_on_wall(anchor, target, mesh_.triangles[t].inner, mesh_.triangles[t].outer);
+  });
+  return place;
+}
+
+void WallRemesher::relax(int times, const Execution& execution) {
+  std::vector<WallPoint> moved(mesh_.vertex_count());
+  for (int time = 0; time < times; ++time) {
+    execution.parallel_for(moved.size(), relaxation_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const auto v = static_cast<std::int32_t>(k);
+        moved[k] = {mesh_.points[k], mesh_.anchors[k]};
+        bool is_alive = false;
+        mesh_.visit_triangles(v, [&](std::size_t) { is_alive = true; });
+        if (!is_alive || mesh_.places[k] == WallPlace::Point) continue;
+        moved[k] = placed(v, relaxed(v));
+      }
+    });
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      // A move that turns a triangle over is left out.
+      bool turns = false;
+      mesh_.visit_triangles(static_cast<std::int32_t>(k), [&](std::size_t t) {
+        std::array<Vector3, 3> x;
+        for (std::size_t c = 0; c < 3; ++c) {
+          x[c] = mesh_.points[index(mesh_.triangles[t].corners[c])];
+        }
+        const Vector3 before = doubled_area_normal(x[0], x[1], x[2]);
+        for (std::size_t c = 0; c < 3; ++c) {
+          if (index(mesh_.triangles[t].corners[c]) == k) x[c] = moved[k].point;
+        }
+        const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
+        if (!(after.dot(before) > 0.3 * after.norm() * before.norm())) turns = true;
+      });
+      if (turns) continue;
+      mesh_.points[k] = moved[k].point;
+      mesh_.anchors[k] = moved[k].vertex;
+    }
+  }
+}
+
+double WallRemesher::mean_ratio() const {
+  // Each edge as often as it is in triangles.
+  double sum = 0.0;
+  double count = 0.0;
+  for (const WallTriangle& t : mesh_.triangles) {
+    if (t.corners[0] < 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length =
+          (mesh_.points[index(t.corners[k])] - mesh_.points[index(t.corners[following(k)])]).norm();
+      sum += length / (edge_of(t) / factor_);
+      count += 1.0;
+    }
+  }
+  return sum / count;
+}
+
+void WallRemesher::improve(int rounds, const Execution& execution) {
+  const double unlimited = 1e300;
+  for (int round = 0; round < rounds; ++round) {
+    execution.report(0.3 + 0.7 * round / rounds, "Remeshing the walls");
+    split_long();
+    collapse_short(unlimited);
+    flip_all();
+    relax(3, execution);
+  }
+}
+
+void WallRemesher::run(double voxel, const Execution& execution) {
+  const double longest = *std::max_element(edges_.begin(), edges_.end());
+  int level = 0;
+  for (double most = voxel; most < longest; most *= 1.6) {
+    execution.report(0.3 * level / (level + 3.0), "Coarsening the walls");
+    ++level;
+    collapse_short(most);
+    flip_all();
+    mesh_.compact();
+    relax(1, execution);
+  }
+  for (int round = 0; round < 3; ++round) {
+    improve(3, execution);
+    factor_ = std::clamp(factor_ / mean_ratio(), 0.5, 2.0);
+  }
+  improve(2, execution);
+  for (int round = 0; round < 3; ++round) {
+    flip_all();
+    relax(2, execution);
+  }
+  mesh_.compact();
+}
+
+}  // namespace wscvt

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "toolbox/conforming/dense_walls.h"
+#include "toolbox/conforming/wall_mesh.h"
+#include "wscvt/base/execution.h"
+
+namespace wscvt {
+
+/// Makes the edges of walls even: splits long edges, collapses short ones, flips, and moves nodes
+/// within their walls and along their lines, always back onto the dense walls (after Botsch and
+/// Kobbelt 2004, A remeshing approach to multiresolution modeling).
+class WallRemesher {
+ public:
+  /// `dense` must outlive it. `edges`: the edge length of each grain; at a wall it is the geometric
+  /// mean of both.
+  WallRemesher(const DenseWalls& dense, std::vector<double> edges);
+
+  /// Remeshes all walls from the dense ones.
+  void run(double voxel, const Execution& execution);
+
+  WallMesh& mesh() { return mesh_; }
+
+  /// Returns the mean over all edges of their length over the wanted one.
+  double mean_ratio() const;
+
+ private:
+  double edge_of(const WallTriangle& t) const;
+  double wanted(const std::vector<std::size_t>& at_edge) const;
+  void collapse_short(double most);
+  void split_long();
+  void flip_all();
+  void relax(int times, const Execution& execution);
+  Vector3 relaxed(std::int32_t v) const;
+  WallPoint placed(std::int32_t v, const Vector3& target) const;
+  void improve(int rounds, const Execution& execution);
+
+  const DenseWalls& dense_;
+  std::vector<double> edges_;
+  double factor_ = 1.0;  ///< of all edge lengths, so that their mean is right
+  WallMesh mesh_;
+};
+
+}  // namespace wscvt

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/conforming/conforming_grains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/expect_error.h"
+#include "toolbox/conforming/conforming_files.h"
+#include "wscvt/base/triangle_geometry.h"
+
+namespace wscvt {
+namespace {
+
+/// Fills the inner voxels by a function of their middles; -1 is background.
+template <class Grain>
+GrainVoxels voxels_of(int side, const Grain& grain_at) {
+  GrainVoxels voxels({side + 2, side + 2, side + 2});
+  for (int z = 0; z < side; ++z) {
+    for (int y = 0; y < side; ++y) {
+      for (int x = 0; x < side; ++x) {
+        voxels.grain[voxels.place(x + 1, y + 1, z + 1)] =
+            grain_at(Vector3(x + 0.5, y + 0.5, z + 0.5));
+      }
+    }
+  }
+  return voxels;
+}
+
+bool is_in_box(const Vector3& p, const Vector3& middle, double half) {
+  return (p - middle).cwiseAbs().maxCoeff() < half;
+}
+
+GrainVoxels two_balls() {
+  return voxels_of(50, [](const Vector3& p) {
+    const double a = (p - Vector3(15.0, 25.0, 25.0)).norm() - 12.0;
+    const double b = (p - Vector3(36.0, 25.3, 24.6)).norm() - 12.0;
+    return std::min(a, b) > 0.0 ? -1 : a < b ? 0 : 1;
+  });
+}
+
+/// Cells of random points in a ball, or in the whole volume.
+GrainVoxels random_cells(unsigned seed, int side, std::size_t count, bool in_ball) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(0.15 * side, 0.85 * side);
+  std::vector<Vector3> middles;
+  while (middles.size() < count) {
+    const double x = place(random);
+    const double y = place(random);
+    middles.emplace_back(x, y, place(random));
+  }
+  return voxels_of(side, [&](const Vector3& p) {
+    if (in_ball && (p - Vector3::Constant(0.5 * side)).norm() > 0.45 * side) return -1;
+    const auto nearer = [&](const Vector3& a, const Vector3& b) {
+      return (a - p).norm() < (b - p).norm();
+    };
+    return static_cast<int>(std::min_element(middles.begin(), middles.end(), nearer) -
+                            middles.begin());
+  });
+}
+
+ConformingGrains conformed(GrainVoxels voxels, std::size_t grains, double edge = 3.0,
+                           int threads = 1) {
+  ConformingOptions options;
+  options.edge_length = edge;
+  return conform_grains(std::move(voxels), grains, VolumeGeometry(), options, Execution(threads));
+}
+
+/// Expects a closed mesh whose triangles about each node are one ring, and outward.
+void expect_closed_manifold(const IndexedMesh& mesh) {
+  std::set<std::pair<int, int>> half_edges;
+  std::vector<std::map<int, int>> rings(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_TRUE(half_edges.emplace(t[k], t[(k + 1) % 3]).second) << "an edge twice";
+      rings[static_cast<std::size_t>(t[k])][t[(k + 1) % 3]] = t[(k + 2) % 3];
+    }
+  }
+  for (const auto& [from, to] : half_edges) {
+    ASSERT_EQ(half_edges.count({to, from}), 1U) << "an open edge";
+  }
+  for (const std::map<int, int>& ring : rings) {
+    ASSERT_GE(ring.size(), 3U);
+    std::size_t steps = 0;
+    int at = ring.begin()->first;
+    do {
+      at = ring.at(at);
+      ++steps;
+    } while (at != ring.begin()->first && steps <= ring.size());
+    ASSERT_EQ(steps, ring.size()) << "several rings about a node";
+  }
+  EXPECT_GT(volume_of(mesh, Execution(1)), 0.0);
+}
+
+/// Triangles as sorted points, to find the same ones in two meshes.
+using Corners = std::array<std::array<double, 3>, 3>;
+std::set<Corners> corners_of(const IndexedMesh& mesh) {
+  std::set<Corners> all;
+  for (const Triangle& t : mesh.triangles) {
+    Corners corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector3& p = mesh.points[static_cast<std::size_t>(t[k])];
+      corners[k] = {p.x(), p.y(), p.z()};
+    }
+    std::sort(corners.begin(), corners.end());
+    all.insert(corners);
+  }
+  return all;
+}
+
+/// Expects what holds for every volume.
+void expect_conforming(const ConformingGrains& result) {
+  std::vector<std::set<Corners>> corners;
+  for (std::size_t g = 0; g < result.grains.size(); ++g) {
+    SCOPED_TRACE("grain " + std::to_string(g));
+    const IndexedMesh mesh = mesh_of(result, g);
+    expect_closed_manifold(mesh);
+    EXPECT_EQ(mesh.points.size(), result.grains[g].nodes);
+    EXPECT_EQ(mesh.triangles.size(), result.grains[g].triangles);
+    // Newton steps end at 1e-13; the rest is the rounding of the sums.
+    EXPECT_NEAR(volume_of(mesh, Execution(1)) / result.grains[g].voxel_volume, 1.0, 1e-11);
+    corners.push_back(corners_of(mesh));
+  }
+  // A grain's wall is in its neighbour, to the bit.
+  for (const ConformingWall& wall : result.walls) {
+    std::size_t common = 0;
+    for (const Corners& one : corners[static_cast<std::size_t>(wall.first)]) {
+      common += corners[static_cast<std::size_t>(wall.second)].count(one);
+    }
+    EXPECT_EQ(common, wall.triangles);
+  }
+}
+
+TEST(ConformingGrains, TwoBallsShareADisc) {
+  const ConformingGrains result = conformed(two_balls(), 2);
+  expect_conforming(result);
+  EXPECT_EQ(result.intersections, 0U);
+  ASSERT_EQ(result.walls.size(), 1U);
+  const ConformingWall& wall = result.walls.front();
+  // The disc has a radius of 5.8; its rim is in the steps of the voxels.
+  EXPECT_NEAR(wall.area, 3.14 * 5.8 * 5.8, 0.25 * wall.area);
+  // The steps at the rim turn the mean by up to 7 degrees, as they turn the faces of voxels.
+  EXPECT_GT(wall.normal.dot(Vector3(21.0, 0.3, -0.4).normalized()), std::cos(0.12));
+  EXPECT_NEAR(result.mean_edge, 3.0, 0.15);
+  EXPECT_LT(result.edge_variation, 0.15);  // random triangulations: .3
+}
+
+TEST(ConformingGrains, ThreeBoxesMeetInAStraightLine) {
+  const ConformingGrains result =
+      conformed(voxels_of(50,
+                          [](const Vector3& p) {
+                            if (!is_in_box(p, Vector3::Constant(25.0), 15.0)) {
+                              return -1;
+                            }
+                            return p.x() < 25.0 ? 0 : p.y() < 25.0 ? 1 : 2;
+                          }),
+                3);
+  expect_conforming(result);
+  EXPECT_EQ(result.intersections, 0U);
+  ASSERT_EQ(result.walls.size(), 3U);
+  std::map<std::int32_t, std::set<std::int32_t>> grains_at;
+  for (const WallTriangle& t : result.triangles) {
+    for (const std::int32_t corner : t.corners) {
+      grains_at[corner].insert(t.inner);
+      grains_at[corner].insert(t.outer);
+    }
+  }
+  int on_line = 0;
+  for (const auto& [node, grains] : grains_at) {
+    if (grains != std::set<std::int32_t>{0, 1, 2}) continue;
+    ++on_line;
+    const Vector3& p = result.points[static_cast<std::size_t>(node)];
+    // The layer of background moves the lattice by a voxel. The volumes move the line a little.
+    EXPECT_NEAR(p.x(), 26.0, 0.2);
+    EXPECT_NEAR(p.y(), 26.0, 0.2);
+  }
+  EXPECT_GE(on_line, 7);  // 30 voxels with edges of 3
+}
+
+TEST(ConformingGrains, RandomCellsWithAndWithoutBackground) {
+  for (const bool in_ball : {false, true}) {
+    const unsigned seed = 17;
+    SCOPED_TRACE("seed " + std::to_string(seed) + (in_ball ? " in a ball" : " in a cube"));
+    const ConformingGrains result = conformed(random_cells(seed, 48, 12, in_ball), 12);
+    expect_conforming(result);
+    EXPECT_NEAR(result.mean_edge, 3.0, 0.2);
+    EXPECT_LT(result.edge_variation, 0.25);
+    EXPECT_EQ(result.intersections, 0U);
+  }
+}
+
+TEST(ConformingGrains, GrainsThatTouchInAnEdgeOrACornerAreApart) {
+  for (const double shift : {0.0, 12.0}) {
+    const ConformingGrains result =
+        conformed(voxels_of(40,
+                            [&](const Vector3& p) {
+                              if (is_in_box(p, {14.0, 14.0, 14.0}, 6.0)) return 0;
+                              return is_in_box(p, {26.0, 26.0, 14.0 + shift}, 6.0) ? 1 : -1;
+                            }),
+                  2);
+    expect_conforming(result);
+    EXPECT_TRUE(result.walls.empty());
+    EXPECT_EQ(result.intersections, 0U);
+  }
+}
+
+TEST(ConformingGrains, ALabelThatTouchesItselfInAnEdgeIsRepaired) {
+  const ConformingGrains result =
+      conformed(voxels_of(40,
+                          [](const Vector3& p) {
+                            if (!is_in_box(p, Vector3::Constant(20.0), 12.0)) return -1;
+                            if (p.z() < 14.0) return 0;
+                            if (p.z() > 26.0) return 1;
+                            return (p.x() < 20.0) == (p.y() < 20.0) ? 0 : 1;
+                          }),
+                2);
+  EXPECT_GT(result.changed_voxels, 0U);
+  expect_conforming(result);
+}
+
+TEST(ConformingGrains, PiecesAreLeftOutAndPoresFilled) {
+  const ConformingGrains result = conformed(voxels_of(40,
+                                                      [](const Vector3& p) {
+                                                        const double d =
+                                                            (p - Vector3::Constant(20.0)).norm();
+                                                        if (p.maxCoeff() < 4.0) return 0;
+                                                        return d < 3.0 || d > 14.0 ? -1 : 0;
+                                                      }),
+                                            1);
+  expect_conforming(result);
+  EXPECT_EQ(result.grains[0].pieces, 2U);
+  EXPECT_EQ(result.grains[0].left_out, 64);
+  EXPECT_GT(result.grains[0].pore_voxels, 80);  // a ball of radius 3 has 113
+}
+
+TEST(ConformingGrains, SameBytesAtAnyNumberOfThreads) {
+  const std::vector<Label> labels = {1, 2, 3, 4, 5, 6, 7, 8};
+  const ConformingGrains one = conformed(random_cells(5, 40, 8, true), 8, 2.5, 1);
+  const ConformingGrains two = conformed(random_cells(5, 40, 8, true), 8, 2.5, 2);
+  EXPECT_EQ(walls_vtu(one, labels), walls_vtu(two, labels));
+}
+
+TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
+  const auto refused = [](std::size_t grains, double edge) {
+    return test::refusal(ErrorCode::InvalidInput, [&] { conformed(two_balls(), grains, edge); });
+  };
+  EXPECT_NE(refused(0, 3.0).find("no grain"), std::string::npos);
+  EXPECT_NE(refused(3, 3.0).find("Grain 2 has no voxel"), std::string::npos);
+  const std::string small = test::refusal(ErrorCode::InvalidInput, [] {
+    conformed(voxels_of(10,
+                        [](const Vector3& p) {
+                          return is_in_box(p, Vector3::Constant(5.0), 0.9) ? 0 : -1;
+                        }),
+              1);
+  });
+  EXPECT_NE(small.find("only 8 voxels"), std::string::npos) << small;
+  EXPECT_NE(small.find("--smallest"), std::string::npos) << small;
+  EXPECT_NE(refused(2, 0.5).find("below a voxel's edge"), std::string::npos);
+  EXPECT_NE(refused(2, -1.0), "");
+}
+
+}  // namespace
+}  // namespace wscvt
