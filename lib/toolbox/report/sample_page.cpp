@@ -272,7 +272,7 @@ std::string shown_error(double percent) {
 }
 
 std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
-  std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors, %"}};
+  std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors"}};
   for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
   rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
   for (const DescriptorLevels& row : levels.rows) {
