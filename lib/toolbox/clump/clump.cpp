@@ -129,7 +129,7 @@ double reach_of(const IndexedMesh& mesh) {
 }
 
 double contact_percent(const ContactError& contact) {
-  return std::hypot(contact.mean, contact.scatter);
+  return portable::hypot(contact.mean, contact.scatter);
 }
 
 /// Returns the error of spheres that the option names, as it is reported; in %.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "toolbox/clump/first_contact.h"
@@ -312,9 +313,14 @@ FileOfGrain remeshes_beside(const std::vector<std::string>& tables) {
   std::vector<JobFolder> folders;
   for (const std::string& table : tables) {
     const std::filesystem::path folder = std::filesystem::path(table).parent_path();
-    // The job's call is beside the table, or above the folder of a number of nodes.
+    const std::string name = std::filesystem::path(table).stem().string();
+    constexpr std::string_view prefix = "grains";
+    if (name.rfind(prefix, 0) != 0) continue;
+    // The job's call is beside the table, or above the folder of a number of nodes. Both have the
+    // part of the sample in their names.
+    const std::string call_name = "call" + name.substr(prefix.size()) + ".json";
     for (const std::filesystem::path& place : {folder, folder / ".."}) {
-      std::ifstream stream(place / "call.json", std::ios::binary);
+      std::ifstream stream(place / call_name, std::ios::binary);
       const Json call = Json::parse(stream, nullptr, false);
       if (!call.is_object() || !call.value("meshes", Json()).is_string()) continue;
       folders.emplace_back(folder, call["meshes"].get<std::string>(), Shard());

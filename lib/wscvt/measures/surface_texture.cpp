@@ -11,6 +11,7 @@
 #include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -84,7 +85,7 @@ class Faces {
           mesh_.points[index(origin_of(mesh_.triangles, previous_half_edge(there)))];
       const Vector3& one = normals_[face_of(here)];
       const Vector3& other = normals_[face_of(there)];
-      const double angle = std::atan2(one.cross(other).norm(), one.dot(other)) * along.norm();
+      const double angle = portable::atan2(one.cross(other).norm(), one.dot(other)) * along.norm();
       all += angle;
       if (one.dot(apex - a) > 0.0) concave += angle;
       lengths += along.norm();
