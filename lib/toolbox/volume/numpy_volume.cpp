@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "toolbox/volume/axis_order.h"
+#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/mesh_files/text_fields.h"

@@ -5,10 +5,11 @@
 #include <string>
 
 #include "toolbox/volume/label_volume.h"
-#include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/volume_choice.h"
 
 namespace wscvt {
+
+struct VolumeArray;  // open_volume.h
 
 // One function per format; see open_volume for what each reads and throws.
 
