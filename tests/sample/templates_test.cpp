@@ -99,7 +99,7 @@ TEST(Templates, DependOnEachOtherAsInTheSample) {
       }
     }
   }
-  // Measured: .029.
+  // Measured: .029, and .095 without the sums and differences of descriptors.
   EXPECT_LT(error / pairs, 0.05);
   RecordProperty("error", std::to_string(error / pairs));
 }
