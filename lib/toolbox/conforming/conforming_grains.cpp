@@ -158,13 +158,15 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
   }
 }
 
-/// Restores the volumes and parts intersecting triangles, until none is left.
+/// Restores the volumes and parts intersecting triangles, until none is left or there are no fewer.
 void finish(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
             ConformingGrains& result, const Execution& execution) {
   constexpr int most_rounds = 30;
+  constexpr int patience = 5;   // rounds without fewer pairs; a volume of 400^3 takes 15 s a round
   constexpr double step = 0.1;  // of a voxel; wide against rounding, small against a gap
   result.triangles = mesh.triangles;
-  for (int round = 0; round <= most_rounds; ++round) {
+  int since = 0;
+  for (int round = 0; round <= most_rounds && since <= patience; ++round, ++since) {
     execution.report(static_cast<double>(round) / (most_rounds + 1), "Parting triangles");
     const double error = restore_volumes(mesh.points, mesh.triangles, volumes);
     const std::vector<TrianglePair> pairs =
@@ -173,6 +175,7 @@ void finish(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
       result.points = mesh.points;
       result.intersections = pairs.size();
       result.volume_error = error;
+      since = 0;
     }
     if (pairs.empty()) return;
     part_pairs(mesh, pairs, step * voxel);
