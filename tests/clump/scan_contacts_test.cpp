@@ -25,7 +25,7 @@ IndexedMesh grain(double scale) {
 TEST(ScanContacts, OfTheScanItselfHaveNoError) {
   const IndexedMesh scan = grain(1.0);
   const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
-  const ContactError error = contacts.error_of(scan, Execution(1));
+  const ContactError error = contacts.errors_of(scan, Execution(1)).distance;
   EXPECT_EQ(error.mean, 0.0);
   EXPECT_EQ(error.scatter, 0.0);
 }
@@ -74,7 +74,7 @@ TEST(FirstTouch, OfBallsLeansAsTheirCentresDo) {
 TEST(ScanContacts, OfASmallerBodyAreTooNear) {
   const IndexedMesh scan = grain(1.0);
   const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
-  const ContactError error = contacts.error_of(grain(0.98), Execution(1));
+  const ContactError error = contacts.errors_of(grain(0.98), Execution(1)).distance;
   const double radius = std::cbrt(2.0 * 1.5 * 1.2);
   EXPECT_LT(error.mean, -4.0 * 1.1 / radius);
   EXPECT_GT(error.mean, -4.0 * 2.1 / radius);
@@ -88,10 +88,12 @@ TEST(ScanContacts, FollowMotionAndScale) {
   };
   const IndexedMesh scan = grain(1.0);
   const ContactError error = ScanContacts(scan, describe_shape(scan, Execution(1)), Execution(1))
-                                 .error_of(grain(0.9), Execution(1));
+                                 .errors_of(grain(0.9), Execution(1))
+                                 .distance;
   const IndexedMesh turned = placed(1.0);
   const ContactError same = ScanContacts(turned, describe_shape(turned, Execution(2)), Execution(2))
-                                .error_of(placed(0.9), Execution(2));
+                                .errors_of(placed(0.9), Execution(2))
+                                .distance;
   // Pixels at the rim of a height map change sides by rounding.
   EXPECT_NEAR(same.mean, error.mean, 0.01);
   EXPECT_NEAR(same.scatter, error.scatter, 0.01);

@@ -9,6 +9,7 @@
 
 #include "wscvt/base/pi.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/quantile.h"
 
 namespace wscvt {
 
@@ -246,14 +247,7 @@ namespace {
 ContactSpread spread_of(std::vector<double> errors) {
   std::sort(errors.begin(), errors.end());
   if (errors.empty()) return {};
-  const auto at = [&](double share) {  // Hazen's quantile
-    const auto last = static_cast<double>(errors.size() - 1);
-    const double place = std::clamp(share * (last + 1.0) - 0.5, 0.0, last);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, errors.size() - 1);
-    return errors[below] + (place - static_cast<double>(below)) * (errors[above] - errors[below]);
-  };
-  return {at(0.5), at(0.9)};
+  return {quantile(errors, 0.5), quantile(errors, 0.9)};
 }
 
 }  // namespace
@@ -287,10 +281,6 @@ ScanContacts::ScanContacts(const IndexedMesh& scan, const ShapeDescriptors& shap
   for (const Vector3& p : unit.points) reach_ = std::max(reach_, room * p.norm());
   heights_.emplace(unit, reach_, execution);
   touches_ = heights_->touches(*heights_, execution);
-}
-
-ContactError ScanContacts::error_of(const IndexedMesh& remesh, const Execution& execution) const {
-  return errors_of(remesh, execution).distance;
 }
 
 ScanContacts::Errors ScanContacts::errors_of(const IndexedMesh& remesh,

@@ -87,16 +87,14 @@ class ScanContacts {
   /// The scan is closed and outward, in any unit; `shape` has its descriptors.
   ScanContacts(const IndexedMesh& scan, const ShapeDescriptors& shape, const Execution& execution);
 
-  /// Returns the error of two copies of a remesh in the scan's coordinates. If scan and remesh are
-  /// moved, turned or scaled together, the error stays the same, but for rounding.
-  ContactError error_of(const IndexedMesh& remesh, const Execution& execution) const;
-
-  /// All errors of a remesh.
+  /// Errors of a remesh.
   struct Errors {
-    ContactError distance;
+    ContactError distance;  ///< two remeshes
     TouchErrors two_sided;  ///< two remeshes
     TouchErrors one_sided;  ///< the remesh below, the scan above
   };
+  /// Returns the errors of a remesh in the scan's coordinates. If scan and remesh are moved, turned
+  /// or scaled together, the errors stay the same, but for rounding.
   Errors errors_of(const IndexedMesh& remesh, const Execution& execution) const;
 
  private:

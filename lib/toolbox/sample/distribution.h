@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "wscvt/base/quantile.h"
+
 namespace wscvt {
 
 /// One number of each grain of a sample, in ascending order, with the grains' weights: equal
@@ -45,10 +47,5 @@ class Distribution {
   std::vector<std::uint32_t> grains_;
   std::vector<double> middles_;  ///< weight below the middle of each grain / all
 };
-
-/// Returns the value below which a fraction, 0 to 1, of values in ascending order lies, as
-/// Distribution::quantile for equal weights. All quantiles of this library are Hazen's
-/// (method="hazen" of NumPy), because these exist with weights too. NaN for no value.
-double quantile(const std::vector<double>& ascending, double fraction);
 
 }  // namespace wscvt
