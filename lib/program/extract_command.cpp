@@ -110,20 +110,14 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   check_writable(in_folder("grains.csv"));
   ConformingOptions options = arguments.walls;
   options.smoothing = arguments.options.smoothing;
-  GrainVoxels voxels =
-      read_grain_voxels(grains.voxels(), labels, work.execution().part(0.0, reading_share));
-  // The layer of background about the voxels moves the lattice.
-  VolumeGeometry geometry = grains.geometry();
-  geometry.corner = geometry.point(Vector3(-1.0, -1.0, -1.0));
   const ConformingGrains result =
-      conform_grains(std::move(voxels), labels.size(), geometry, options,
-                     work.execution().part(reading_share, 1.0));
+      conform_labels(grains.voxels(), labels, options, work.execution());
+  const std::vector<IndexedMesh> meshes = grain_meshes(result);
   std::vector<std::string> files;
   for (std::size_t g = 0; g < labels.size(); ++g) {
     files.push_back(std::to_string(labels[g]) + "." + arguments.format);
-    work.write(in_folder(files.back()), [&](const std::string& path, const Execution&) {
-      write_mesh(mesh_of(result, g), path);
-    });
+    work.write(in_folder(files.back()),
+               [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
   }
   const auto write = [&](const char* name, const std::string& text) {
     work.write(in_folder(name),

@@ -119,9 +119,10 @@ std::set<Corners> corners_of(const IndexedMesh& mesh) {
 /// Expects what holds for every volume.
 void expect_conforming(const ConformingGrains& result) {
   std::vector<std::set<Corners>> corners;
+  const std::vector<IndexedMesh> meshes = grain_meshes(result);
   for (std::size_t g = 0; g < result.grains.size(); ++g) {
     SCOPED_TRACE("grain " + std::to_string(g));
-    const IndexedMesh mesh = mesh_of(result, g);
+    const IndexedMesh& mesh = meshes[g];
     expect_closed_manifold(mesh);
     EXPECT_EQ(mesh.points.size(), result.grains[g].nodes);
     EXPECT_EQ(mesh.triangles.size(), result.grains[g].triangles);

@@ -27,8 +27,8 @@ std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> surfac
   return surfaces;
 }
 
-}  // namespace
-
+/// Returns the voxels of labels, with one layer of background about them. The memory is 4 bytes per
+/// voxel.
 GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& labels,
                               const Execution& execution) {
   const VoxelCounts& counts = volume.geometry().counts;
@@ -54,6 +54,19 @@ GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& lab
     }
   }
   return voxels;
+}
+
+}  // namespace
+
+ConformingGrains conform_labels(LabelVolume& volume, const std::vector<Label>& labels,
+                                const ConformingOptions& options, const Execution& execution) {
+  constexpr double reading = 0.05;
+  GrainVoxels voxels = read_grain_voxels(volume, labels, execution.part(0.0, reading));
+  // The layer of background about the voxels moves the lattice.
+  VolumeGeometry geometry = volume.geometry();
+  geometry.corner = geometry.point(Vector3(-1.0, -1.0, -1.0));
+  return conform_grains(std::move(voxels), labels.size(), geometry, options,
+                        execution.part(reading, 1.0));
 }
 
 std::string walls_vtu(const ConformingGrains& grains, const std::vector<Label>& labels) {

@@ -9,11 +9,11 @@
 
 namespace wscvt {
 
-/// Returns the voxels of labels, with one layer of background about them. `labels`: those that
-/// become grains, ascending; all others become background. Reads the volume from its current row
-/// on. The memory is 4 bytes per voxel.
-GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& labels,
-                              const Execution& execution);
+/// Remeshes labels of a volume at once, in its coordinates. `labels`: those that become grains,
+/// ascending; all others become background. Reads the volume from its current row on. Throws Error
+/// as conform_grains and as the volume does.
+ConformingGrains conform_labels(LabelVolume& volume, const std::vector<Label>& labels,
+                                const ConformingOptions& options, const Execution& execution);
 
 // Files of conforming grains. `labels`: of each grain. Numbers read back to the same bits.
 

@@ -9,6 +9,7 @@
 
 #include "toolbox/conforming/wall_remesh.h"
 #include "toolbox/volume/label_grains.h"
+#include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/portable_math.h"
@@ -182,6 +183,29 @@ void finish(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
   }
 }
 
+/// Returns the closed mesh of a grain. `by_grain`: the triangles of each.
+IndexedMesh mesh_of(const ConformingGrains& grains, const Groups& by_grain, std::size_t grain) {
+  IndexedMesh mesh;
+  std::vector<std::int32_t> used;
+  for (const std::int32_t* at = by_grain.begin(grain); at != by_grain.end(grain); ++at) {
+    const WallTriangle& t = grains.triangles[index(*at)];
+    Triangle corners = t.corners;
+    if (index(t.inner) != grain) std::swap(corners[1], corners[2]);
+    mesh.triangles.push_back(corners);
+    used.insert(used.end(), corners.begin(), corners.end());
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const std::int32_t v : used) mesh.points.push_back(grains.points[index(v)]);
+  for (Triangle& t : mesh.triangles) {
+    for (std::int32_t& corner : t) {
+      corner = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), corner) -
+                                         used.begin());
+    }
+  }
+  return mesh;
+}
+
 }  // namespace
 
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
@@ -237,26 +261,18 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   return result;
 }
 
-IndexedMesh mesh_of(const ConformingGrains& grains, std::size_t grain) {
-  IndexedMesh mesh;
-  std::vector<std::int32_t> used;
-  for (const WallTriangle& t : grains.triangles) {
-    if (index(t.inner) != grain && !(t.outer >= 0 && index(t.outer) == grain)) continue;
-    Triangle corners = t.corners;
-    if (index(t.inner) != grain) std::swap(corners[1], corners[2]);
-    mesh.triangles.push_back(corners);
-    used.insert(used.end(), corners.begin(), corners.end());
+std::vector<IndexedMesh> grain_meshes(const ConformingGrains& grains) {
+  const Groups by_grain = counting_sort(grains.triangles.size(), grains.grains.size(),
+                                        [&](std::size_t t, const auto& visit) {
+                                          const WallTriangle& triangle = grains.triangles[t];
+                                          visit(index(triangle.inner));
+                                          if (triangle.outer >= 0) visit(index(triangle.outer));
+                                        });
+  std::vector<IndexedMesh> meshes;
+  for (std::size_t grain = 0; grain < grains.grains.size(); ++grain) {
+    meshes.push_back(mesh_of(grains, by_grain, grain));
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::int32_t v : used) mesh.points.push_back(grains.points[index(v)]);
-  for (Triangle& t : mesh.triangles) {
-    for (std::int32_t& corner : t) {
-      corner = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), corner) -
-                                         used.begin());
-    }
-  }
-  return mesh;
+  return meshes;
 }
 
 }  // namespace wscvt

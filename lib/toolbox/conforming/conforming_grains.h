@@ -78,8 +78,8 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
                                 const Execution& execution);
 
-/// Returns the closed mesh of a grain. Its nodes and triangles are in the order of the complex, so
-/// that two grains have the same numbers, to the bit, on their wall.
-IndexedMesh mesh_of(const ConformingGrains& grains, std::size_t grain);
+/// Returns the closed mesh of each grain. Its nodes and triangles are in the order of the complex,
+/// so that two grains have the same numbers, to the bit, on their wall.
+std::vector<IndexedMesh> grain_meshes(const ConformingGrains& grains);
 
 }  // namespace wscvt
