@@ -94,8 +94,8 @@ struct MeasuredScan {
   std::optional<Resolution> resolution;
 };
 
-/// Returns what the voxels did; without rows if their size is not known, or if the orders of the
-/// descriptors are not those of this smoothing.
+/// Returns what the voxels did; without rows if their size is not known, or if the biases of
+/// the descriptors were measured with another smoothing.
 Resolution resolution_of(const RemeshJob& job, double voxel_size, const IndexedMesh& scan,
                          const DetailedDescriptors& descriptors, const Execution& execution) {
   const std::optional<Vector3>& given = job.volume.choice.voxel_size;
@@ -291,7 +291,8 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
   for (const JobFolder& folder : folders_of(job)) {
     const SampleSummary summary = summarise_table(folder.table());
     for (const char* ending : {".json", ".html"}) {
-      write_summary(folder.file("summary", ending), summary, remeshes_beside({folder.table()}));
+      write_summary(folder.file("summary", ending), summary,
+                    [&](const std::string& grain) { return folder.file_of(grain); });
     }
     for (const std::string& line : summary_lines(summary)) lines.push_back(line);
   }
