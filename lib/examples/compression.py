@@ -23,18 +23,24 @@ MOST_STEPS = 30
 SLACK = 0.01
 
 
-def nodes_of(path):
-    """Returns the coordinates of the nodes by number, and the numbers of the surface's nodes."""
-    nodes, last, block = {}, 0, ""
+def body_of(path):
+    """Returns the coordinates of the nodes by number, the numbers of the surface's nodes, and the
+    surface's triangles as indices of those."""
+    corners = {"S1": (0, 1, 2), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (2, 0, 3)}
+    nodes, elements, faces, last, block = {}, {}, [], 0, ""
     for line in path.read_text(encoding="utf-8").splitlines():
+        words = [word.strip() for word in line.split(",")]
         if line.startswith("*"):
-            block = line.upper()
-        elif block.startswith("*NODE"):
-            number, *place = line.split(",")
-            nodes[int(number)] = [float(value) for value in place]
-        elif block.startswith("*NSET"):
-            last = int(line.split(",")[1])
-    return nodes, range(1, last + 1)
+            block = words[0].upper()
+        elif block == "*NODE":
+            nodes[int(words[0])] = [float(word) for word in words[1:]]
+        elif block == "*ELEMENT":
+            elements[int(words[0])] = [int(word) for word in words[1:]]
+        elif block == "*NSET":
+            last = int(words[1])
+        elif block == "*SURFACE":
+            faces.append([elements[int(words[0])][k] - 1 for k in corners[words[1]]])
+    return nodes, range(1, last + 1), faces
 
 
 def solve(mesh, folder, fixed, modulus, poisson):
@@ -61,13 +67,13 @@ def solve(mesh, folder, fixed, modulus, poisson):
     return values["displacements"], values["forces"]
 
 
-def press(mesh, share, modulus=1.0, poisson=0.25, keep=None):
+def press(mesh, body, share, modulus=1.0, poisson=0.25, keep=None):
     """Returns the force on the upper plate, that on the lower, the nodes that touch, and the
     displacements in z by node.
 
-    share: the compression over the grain's height. modulus: of elasticity, force / length^2.
+    mesh: the file; body: what body_of returns of it. share: the compression over the grain's height. modulus: of elasticity, force / length^2.
     """
-    nodes, surface = nodes_of(mesh)
+    nodes, surface, _ = body
     heights = [nodes[n][2] for n in surface]
     low, high = min(heights), max(heights)
     move = share * (high - low) / 2.0
@@ -91,25 +97,13 @@ def press(mesh, share, modulus=1.0, poisson=0.25, keep=None):
     sys.exit(f"The contact was not found in {MOST_STEPS} steps.")
 
 
-def draw(mesh, touching, moved, path):
+def draw(body, touching, moved, path):
     """Draws the surface by the displacement in z, and the nodes that touch."""
     import matplotlib.pyplot
     import numpy
     from matplotlib.tri import Triangulation
-    nodes, surface = nodes_of(mesh)
+    nodes, surface, faces = body
     points = numpy.array([nodes[n] for n in surface])
-    faces = []
-    corners = {"S1": (0, 1, 2), "S2": (0, 1, 3), "S3": (1, 2, 3), "S4": (2, 0, 3)}
-    elements, block = {}, ""
-    for line in mesh.read_text(encoding="utf-8").splitlines():
-        if line.startswith("*"):
-            block = line.upper()
-        elif block.startswith("*ELEMENT"):
-            number, *rest = line.split(",")
-            elements[int(number)] = [int(word) for word in rest]
-        elif block.startswith("*SURFACE"):
-            number, side = line.split(",")
-            faces.append([elements[int(number)][k] - 1 for k in corners[side.strip()]])
     figure = matplotlib.pyplot.figure(figsize=(6, 6))
     axes = figure.add_subplot(projection="3d", elev=10)
     values = numpy.array([moved[n] for n in surface])[numpy.array(faces)].mean(axis=1)
@@ -133,11 +127,12 @@ def main():
     given = parser.parse_args()
     if given.keep:
         given.keep.mkdir(parents=True, exist_ok=True)
-    upper, lower, touching, moved = press(given.mesh, given.by / 100.0, given.modulus, given.poisson,
+    body = body_of(given.mesh)
+    upper, lower, touching, moved = press(given.mesh, body, given.by / 100.0, given.modulus, given.poisson,
                                           given.keep)
     print(f"force {upper:.4g} on the upper plate, {lower:.4g} on the lower, {len(touching)} nodes touch")
     if given.picture:
-        draw(given.mesh, touching, moved, given.picture)
+        draw(body, touching, moved, given.picture)
 
 
 if __name__ == "__main__":
