@@ -32,12 +32,12 @@ py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
   return array;
 }
 
-ClumpOptions clump_options(int spheres, double max_error, const std::string& error_of,
+ClumpOptions clump_options(int spheres, double max_error, const std::string& error_measure,
                            int max_spheres, double smallest_radius, bool inside, int remesh_nodes) {
   ClumpOptions options;
   options.sphere_count = spheres;
   options.max_error_percent = max_error;
-  options.error_of = from_key<ClumpError>(error_of);
+  options.error_measure = from_key<ClumpError>(error_measure);
   options.most_spheres = max_spheres;
   options.smallest_radius_percent = smallest_radius;
   options.inside = inside;
@@ -46,9 +46,9 @@ ClumpOptions clump_options(int spheres, double max_error, const std::string& err
 }
 
 py::object clump(const Points& vertices, const py::object& faces, int spheres, double max_error,
-                 const std::string& error_of, int max_spheres, double smallest_radius, bool inside,
-                 int remesh_nodes, int threads, const py::object& progress) {
-  const ClumpOptions options = clump_options(spheres, max_error, error_of, max_spheres,
+                 const std::string& error_measure, int max_spheres, double smallest_radius,
+                 bool inside, int remesh_nodes, int threads, const py::object& progress) {
+  const ClumpOptions options = clump_options(spheres, max_error, error_measure, max_spheres,
                                              smallest_radius, inside, remesh_nodes);
   IndexedMesh scan = mesh_of(vertices, faces);
   const ClumpResult result = work_on(threads, progress, [&](const Execution& execution) {
@@ -62,12 +62,12 @@ py::object clump(const Points& vertices, const py::object& faces, int spheres, d
 py::dict clump_files(const std::vector<std::string>& inputs, const std::filesystem::path& output,
                      int spheres, const std::string& shard, const std::string& format,
                      const std::string& frame, double scale, double size, double density,
-                     double max_error, const std::string& error_of, int max_spheres,
+                     double max_error, const std::string& error_measure, int max_spheres,
                      double smallest_radius, bool inside, int remesh_nodes, int threads,
                      const py::object& progress) {
   ClumpJob options;
-  options.clump = clump_options(spheres, max_error, error_of, max_spheres, smallest_radius, inside,
-                                remesh_nodes);
+  options.clump = clump_options(spheres, max_error, error_measure, max_spheres, smallest_radius,
+                                inside, remesh_nodes);
   options.frame = frame_of(frame, scale, size);
   options.density = density;
   options.format = format;
@@ -82,7 +82,7 @@ void bind_clump(py::module_& module) {
   module.def(
       "clump", &clump, py::arg("vertices"), py::arg("faces"),
       py::arg("spheres") = usual.sphere_count, py::kw_only(),
-      py::arg("max_error") = usual.max_error_percent, py::arg("error_of") = "distance",
+      py::arg("max_error") = usual.max_error_percent, py::arg("error_measure") = "distance",
       py::arg("max_spheres") = usual.most_spheres,
       py::arg("smallest_radius") = usual.smallest_radius_percent, py::arg("inside") = usual.inside,
       py::arg("remesh_nodes") = usual.compared_nodes, py::arg("threads") = 0,
@@ -94,7 +94,7 @@ void bind_clump(py::module_& module) {
              py::kw_only(), py::arg("shard") = "1/1", py::arg("format") = "csv",
              py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,
              py::arg("density") = 1.0, py::arg("max_error") = usual.max_error_percent,
-             py::arg("error_of") = "distance", py::arg("max_spheres") = usual.most_spheres,
+             py::arg("error_measure") = "distance", py::arg("max_spheres") = usual.most_spheres,
              py::arg("smallest_radius") = usual.smallest_radius_percent,
              py::arg("inside") = usual.inside, py::arg("remesh_nodes") = usual.compared_nodes,
              py::arg("threads") = 0, py::arg("progress") = py::none());

@@ -208,7 +208,7 @@ TEST(Clump, AllowedErrorsOfVolumeInertiaAndFirstContactAreMet) {
   };
   for (const ClumpError of : {ClumpError::Volume, ClumpError::Inertia, ClumpError::Contact}) {
     ClumpOptions options;
-    options.error_of = of;
+    options.error_measure = of;
     options.max_error_percent = of == ClumpError::Inertia ? 0.8 : 8.0;
     options.most_spheres = 60;
     const ClumpResult clump = make_clump(scan, options, Execution(2));
@@ -224,7 +224,7 @@ TEST(Clump, AllowedErrorsOfVolumeInertiaAndFirstContactAreMet) {
     EXPECT_GT(error_of(of, fewer), options.max_error_percent) << key_of(of);
   }
   ClumpOptions options;
-  options.error_of = ClumpError::Contact;
+  options.error_measure = ClumpError::Contact;
   options.max_error_percent = 0.5;
   options.most_spheres = 3;
   const ClumpResult clump = make_clump(scan, options, Execution(2));

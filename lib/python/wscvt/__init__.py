@@ -267,7 +267,7 @@ def clump(vertices, faces=None, spheres=20, *, output=None, **options):
 
     spheres: their number, 1 to 1000.
     max_error: allowed error in %, instead of a number. max_spheres then limits the number.
-    error_of: "distance" (rms, in % of the equivalent radius), "volume" (not shared), "inertia" or
+    error_measure: "distance" (rms, in % of the equivalent radius), "volume" (not shared), "inertia" or
         "contact" (first contact, in % of the equivalent radius).
     smallest_radius: of a sphere, in % of the equivalent radius.
     inside: keep all spheres inside the scan.

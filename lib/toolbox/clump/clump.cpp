@@ -151,7 +151,7 @@ double error_percent(ClumpError of, const IndexedMesh& unit, const ShapeDescript
 
 /// Returns what the allowed error is held against, in %, and its name.
 std::pair<double, std::string> allowed_error(const ClumpResult& result) {
-  switch (result.options.error_of) {
+  switch (result.options.error_measure) {
     case ClumpError::Volume:
       return {100.0 * (1.0 - result.intersection_over_union),
               "volume that is only in one of grain and clump is "};
@@ -234,7 +234,7 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
 void check_clump_options(const ClumpOptions& options) {
   require_in_range(options.sphere_count, sphere_count_option);
   require_in_range(options.max_error_percent, clump_error_option);
-  require_valid(options.error_of);
+  require_valid(options.error_measure);
   require_in_range(options.most_spheres, most_spheres_option);
   require_in_range(options.smallest_radius_percent, smallest_radius_option);
   require_in_range(options.compared_nodes, compared_nodes_option);
@@ -261,9 +261,9 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   const UnitFrame frame(result.scan);
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);
   std::function<double(const std::vector<Sphere>&)> error;
-  if (options.error_of != ClumpError::Distance) {
+  if (options.error_measure != ClumpError::Distance) {
     error = [&, shape = describe_shape(unit, execution)](const std::vector<Sphere>& spheres) {
-      return error_percent(options.error_of, unit, shape, spheres, execution.part(0.8, 0.8));
+      return error_percent(options.error_measure, unit, shape, spheres, execution.part(0.8, 0.8));
     };
   }
   FittedSpheres fitted = fit_spheres(unit, options, execution.part(0.15, 0.8), error);

@@ -16,7 +16,7 @@ enum class ClumpError {
 
 template <>
 struct EnumerationTable<ClumpError> {
-  static constexpr std::string_view key = "error-of";
+  static constexpr std::string_view key = "error-measure";
   static constexpr std::string_view subject = "error of a clump";
   static constexpr Enumerator<ClumpError> rows[] = {
       {ClumpError::Distance, "distance", "distance",
@@ -33,10 +33,10 @@ struct EnumerationTable<ClumpError> {
 /// Options of the clump of a grain: overlapping spheres that move as one body.
 struct ClumpOptions {
   int sphere_count = 20;  ///< K; not used with an allowed error
-  /// Allowed error, in %, of what error_of names. The clump gets the fewest spheres that meet it,
-  /// to within a tenth of their number. 0: sphere_count spheres.
+  /// Allowed error, in %, of what error_measure names. The clump gets the fewest spheres that meet
+  /// it, to within a tenth of their number. 0: sphere_count spheres.
   double max_error_percent = 0.0;
-  ClumpError error_of = ClumpError::Distance;
+  ClumpError error_measure = ClumpError::Distance;
   int most_spheres = 200;  ///< limit of the search for the allowed error
   /// Smallest radius of a sphere, in % of the equivalent radius. The time step depends on it.
   double smallest_radius_percent = 0.0;
@@ -82,7 +82,7 @@ template <class Options, class Visitor>
 void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.sphere_count, sphere_count_option);
   visitor(options.max_error_percent, clump_error_option);
-  visitor(options.error_of);
+  visitor(options.error_measure);
   visitor(options.most_spheres, most_spheres_option);
   visitor(options.smallest_radius_percent, smallest_radius_option);
   visitor(options.inside, inside_option);

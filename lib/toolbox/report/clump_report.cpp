@@ -239,7 +239,7 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
   std::vector<Figure> curves = {figures.distributions.back()};
   if (points.size() > 1) {
     curves.push_back({logarithmic_figure("number of spheres", "rms distance, %", std::move(points),
-                                         clump.options.error_of == ClumpError::Distance
+                                         clump.options.error_measure == ClumpError::Distance
                                              ? clump.options.max_error_percent
                                              : 0.0),
                       "Rms distance from scan to clump, in % of the equivalent radius, for fewer "
