@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [web] [static] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [web] [static] [wine] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen and OpenMesh.
@@ -105,6 +105,13 @@ for step in "$@"; do
       tests/install_packages.sh debootstrap
       packages/make_static.py build/release build/wscvt-static
       tests/static.sh build/release/lib/wscvt build/wscvt-static meshes build/static ;;
+    wine)
+      # After release. A step of its own, because wine is 1 GB and the program is built once more.
+      tests/install_packages.sh g++-mingw-w64-x86-64-posix libz-mingw-w64-dev wine wine64 python3-numpy
+      packages/windows/libraries.sh
+      cmake --preset windows -DWSCVT_WARNINGS_AS_ERRORS=ON
+      cmake --build --preset windows -j "$jobs"
+      tests/wine.sh build/release/lib/wscvt build/windows/lib/wscvt.exe meshes build/wine ;;
     engines)
       # After release. Yade, LIGGGHTS, LAMMPS, Gmsh and VTK are 1 GB, so a step of its own.
       tests/install_packages.sh yade liggghts lammps gmsh calculix-ccx python3-vtk9 python3-numpy libmujoco-dev \

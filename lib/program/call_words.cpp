@@ -123,8 +123,9 @@ CallWords call_words(std::vector<std::string> words, const std::vector<std::stri
     if (first.substr(0, first.find('=')) == own) return {words, ""};
   }
   const bool is_many = names_files(first);
-  // A file name has a point or a slash.
-  if (!is_many && first.find_first_of("-./") == std::string::npos) refuse_unknown(first, commands);
+  // A file name has a point or a slash, or that of Windows.
+  if (!is_many && first.find_first_of("-./\\") == std::string::npos)
+    refuse_unknown(first, commands);
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.rfind('-', 0) == 0; });
   const std::ptrdiff_t count = option - words.begin();

@@ -62,6 +62,7 @@ Command make_command(CLI::App& app) {
 int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
   app.formatter(std::make_shared<program::HelpFormatter>());
+  app.allow_windows_style_options(false);  // "/scans/sand.ply" is a file on Windows too
   app.footer(
       "\"wscvt SCAN OUTPUT\" means \"wscvt remesh SCAN OUTPUT\". \"wscvt FOLDER OUT\" and "
       "\"wscvt SCANS... OUT\"\nmean \"wscvt batch\". Help for a command:\n"

@@ -27,7 +27,7 @@ std::vector<std::string> files_ending(const std::string& folder,
                                       const std::vector<std::string>& endings) {
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string file = entry.path().string();
+    const std::string file = entry.path().generic_string();
     if (entry.is_directory()) continue;
     if (std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) {
       files.push_back(file);

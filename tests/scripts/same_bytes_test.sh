@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the program and another one, and compares their files byte by byte: both methods, all weightings,
 # placements, clump, convex, grow, segment, extract and reports. OTHER is a program, or older-processor for the
-# same program as on a processor on which glibc takes other variants of its mathematical functions.
-#   same_bytes_test.sh PROGRAM OTHER MESHES WORK_FOLDER [every-grain]
+# same program as on a processor on which glibc takes other variants of its mathematical functions. A build without ITK
+# has no segment; it is given the labels.
+#   same_bytes_test.sh PROGRAM OTHER MESHES WORK_FOLDER [every-grain | without-segment]
 set -eu
 program=$(realpath "$1")
 other=$2
@@ -16,6 +17,9 @@ grains="sand_7228 angular_6000 elongated_rough_8000"
 if [ "${5:-}" = every-grain ]; then
   grains=$(cd "$meshes" && ls ./*.ply | sed 's/.ply$//; s/^..//')
 fi
+
+segments=yes
+[ "${5:-}" != without-segment ] || segments=no
 
 wscvt() {
   "$program" "$@" --threads 1 > "$work/log" 2>&1 || {
@@ -50,7 +54,11 @@ make_all() {  # folder
   wscvt sample 150 -q --report sample.json
   wscvt create superellipsoid rod.stl --semi-axes 3 1 0.5 --polar-exponent 0.7 -q -n 200
   cp "$work/scan.tif" .
-  wscvt segment scan.tif labels.nrrd -q
+  if [ "$segments" = yes ]; then
+    wscvt segment scan.tif labels.nrrd -q
+  else
+    cp "$work/labels.nrrd" .
+  fi
   wscvt batch labels.nrrd -o extracted -q -n 100
 }
 
@@ -63,6 +71,7 @@ import run_readme
 with open(sys.argv[2], "wb") as file:
     file.write(run_readme.tiff((20, 200, 200)))
 END
+[ "$segments" = yes ] || "$program" segment "$work/scan.tif" "$work/labels.nrrd" -q
 make_all "$work/here"
 if [ "$other" = older-processor ]; then
   export GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX

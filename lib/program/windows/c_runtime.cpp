@@ -76,3 +76,9 @@ extern "C" std::size_t mbrtowc(wchar_t* wide, const char* text, std::size_t size
   *state = static_cast<std::mbstate_t>(0xdc00 + ((value - 0x10000) & 0x3ffU));
   return 3;
 }
+
+// The library has this one in the same file, so that both come from here.
+extern "C" std::size_t mbrlen(const char* text, std::size_t size, std::mbstate_t* state) {
+  static thread_local std::mbstate_t own;
+  return mbrtowc(nullptr, text, size, state == nullptr ? &own : state);
+}

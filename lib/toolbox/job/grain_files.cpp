@@ -25,7 +25,7 @@ void add_folder(const std::string& folder, const IsVolume& is_volume,
                 std::vector<std::string>& files) {
   const std::size_t before = files.size();
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string file = entry.path().string();
+    const std::string file = entry.path().generic_string();
     if (is_mesh_file(file) && !entry.is_directory() && !is_volume(file)) files.push_back(file);
   }
   if (files.size() == before) {

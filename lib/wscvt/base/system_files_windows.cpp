@@ -225,7 +225,8 @@ std::vector<std::string> matching_files(const std::string& pattern) {
     found = std::move(next);
   }
   std::vector<std::string> files;
-  for (const fs::path& path : found) files.push_back(path.u8string());
+  // As on other systems, because tables have these names.
+  for (const fs::path& path : found) files.push_back(path.generic_u8string());
   std::sort(files.begin(), files.end());
   return files;
 }
