@@ -12,9 +12,8 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/lower_case.h"
 #include "wscvt/base/option.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"

@@ -9,7 +9,7 @@
 
 #include "help_text.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/lower_case.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::program {
 

@@ -14,7 +14,7 @@
 #include "toolbox/report/parts_report.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::program {
 

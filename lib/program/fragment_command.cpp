@@ -13,7 +13,7 @@
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/sample/given_sizes.h"
-#include "toolbox/sample/grow_options.h"
+#include "toolbox/sample/grain_grower.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"

@@ -8,7 +8,7 @@
 #include "progress_line.h"
 #include "signals.h"
 #include "wrong_call.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt::program {

@@ -41,7 +41,7 @@
 #include "templates_command.h"
 #include "wrong_call.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
 
 namespace {

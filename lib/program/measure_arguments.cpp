@@ -6,7 +6,7 @@
 
 #include "command.h"
 #include "output_paths.h"
-#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/clump/sphere.h"
 #include "toolbox/exchange/clump_files.h"
 #include "toolbox/resolution/resolution.h"
 #include "work.h"

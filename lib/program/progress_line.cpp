@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::program {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "command.h"
-#include "wscvt/base/lower_case.h"
+#include "wscvt/base/text.h"
 #include "wscvt/remesh/other_method.h"
 
 namespace wscvt::program {

@@ -15,7 +15,7 @@
 #include "toolbox/tetrahedra/tetrahedra.h"
 #include "work.h"
 #include "wrong_call.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"

@@ -9,7 +9,7 @@
 #include "job_on_terminal.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/surface/harmonic_surface.h"

@@ -12,7 +12,7 @@
 #include "toolbox/volume/segmentation.h"
 #include "work.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/lower_case.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt::program {

@@ -10,7 +10,7 @@
 #include "toolbox/volume/label_grains.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::python {
 

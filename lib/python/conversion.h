@@ -16,8 +16,8 @@
 #include "toolbox/volume/volume_choice.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/lower_case.h"
 #include "wscvt/base/option.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::python {
 

@@ -9,7 +9,7 @@
 #include "conversion.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::python {
 

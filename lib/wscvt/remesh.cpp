@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"

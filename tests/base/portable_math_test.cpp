@@ -12,7 +12,7 @@
 #include <string>
 
 #include "support/seeds.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {

@@ -11,7 +11,7 @@
 #include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
-#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/clump/sphere.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt {

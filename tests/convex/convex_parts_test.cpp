@@ -15,7 +15,7 @@
 #include "toolbox/convex/parts.h"
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/convex_hull.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 

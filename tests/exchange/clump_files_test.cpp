@@ -14,8 +14,7 @@
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/next_prime.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {

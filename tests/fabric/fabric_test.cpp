@@ -20,7 +20,7 @@
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/fabric/fabric_page.h"
 #include "wscvt/base/csv_reader.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 

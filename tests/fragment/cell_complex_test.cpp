@@ -14,7 +14,7 @@
 #include "support/test_shapes.h"
 #include "toolbox/fragment/face_triangles.h"
 #include "toolbox/fragment/fragment_sites.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {

@@ -9,7 +9,7 @@
 
 #include "marching_cubes.h"
 #include "voxel_blur.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/repair/mesh_check.h"
 
 namespace wscvt::test {

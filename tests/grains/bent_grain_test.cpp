@@ -7,7 +7,7 @@
 
 #include "support/test_shapes.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "marching_cubes.h"
 #include "voxel_blur.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"

@@ -11,7 +11,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 namespace {

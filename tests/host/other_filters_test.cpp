@@ -13,7 +13,7 @@
 #include "calls.h"
 #include "programs.h"
 #include "sample_meshes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/surface/harmonic_surface.h"

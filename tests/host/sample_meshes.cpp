@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt::host_test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "support/seeds.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/spherical_harmonics.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/nodes/coarsening.h"
 #include "wscvt/nodes/fit_state.h"
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "support/test_shapes.h"
-#include "wscvt/base/equivalent_radius.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/nodes/scan_nodes.h"
 #include "wscvt/surface/edit_mesh.h"

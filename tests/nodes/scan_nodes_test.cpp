@@ -13,7 +13,7 @@
 #include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/curvature.h"

@@ -17,7 +17,7 @@
 #include "support/test_shapes.h"
 #include "support/tga_picture.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/report.h"

@@ -8,7 +8,7 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {

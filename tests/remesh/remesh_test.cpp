@@ -21,7 +21,7 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/repair/shrink_wrap.h"

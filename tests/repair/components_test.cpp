@@ -11,7 +11,7 @@
 
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/repair/edge_rings.h"
 
 namespace wscvt {

@@ -17,8 +17,8 @@
 #include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/numbers.h"
+#include "wscvt/base/text.h"
 #include "wscvt/report/mass_table.h"
 
 namespace wscvt {

@@ -11,7 +11,7 @@
 
 #include "support/expect_error.h"
 #include "toolbox/resolution/mesh_voxels.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"

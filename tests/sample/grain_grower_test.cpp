@@ -10,9 +10,9 @@
 #include "support/expect_error.h"
 #include "support/random_sample.h"
 #include "toolbox/sample/grown_mesh.h"
-#include "toolbox/sample/quick_shape.h"
 #include "toolbox/sample/sample_comparison.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "toolbox/sample/sample_grain.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "support/expect_error.h"
 #include "support/random_sample.h"
-#include "toolbox/sample/quick_shape.h"
+#include "toolbox/sample/sample_grain.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/mesh_quality.h"
 

@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/random_sample.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/self_intersections.h"
 

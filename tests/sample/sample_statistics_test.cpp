@@ -15,7 +15,7 @@
 #include "toolbox/sample/random_stream.h"
 #include "toolbox/sample/sample_comparison.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {

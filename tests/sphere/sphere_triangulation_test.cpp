@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_delaunay.h"
 #include "wscvt/sphere/sphere_sampling.h"
 

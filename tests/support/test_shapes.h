@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "wscvt/base/mesh.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 /// Meshes with known measures, and ways to move them, for the tests.
 namespace wscvt::test {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {

@@ -12,7 +12,7 @@
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/shtools_io.h"

@@ -8,7 +8,7 @@
 
 #include "support/expect_error.h"
 #include "support/seeds.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {

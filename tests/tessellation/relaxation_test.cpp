@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/seed_models.h"
 #include "support/seeds.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"

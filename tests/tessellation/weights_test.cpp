@@ -10,7 +10,7 @@
 
 #include "support/expect_error.h"
 #include "support/seed_models.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"

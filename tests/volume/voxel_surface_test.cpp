@@ -15,7 +15,7 @@
 #include "support/made_volume.h"
 #include "toolbox/volume/smoothed_surface.h"
 #include "wscvt/base/mesh.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

@@ -7,10 +7,9 @@
 #include <functional>
 #include <utility>
 
-#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/clump/sphere.h"
 #include "toolbox/clump/unit_frame.h"
-#include "wscvt/base/equivalent_radius.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"

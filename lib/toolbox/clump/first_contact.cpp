@@ -7,9 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/quantile.h"
 
 namespace wscvt {
 

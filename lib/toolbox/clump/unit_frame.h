@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

@@ -11,8 +11,8 @@
 #include "toolbox/convex/cut_choice.h"
 #include "toolbox/convex/cut_tree.h"
 #include "toolbox/convex/signed_grid.h"
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

@@ -11,11 +11,11 @@
 #include <system_error>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/machine_refused.h"
-#include "wscvt/base/next_prime.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/version.h"
 #include "wscvt/mesh_files/text_fields.h"

@@ -11,8 +11,8 @@
 #include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 

@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/exchange/rockable_shape.h"
 
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_writers.h"
 

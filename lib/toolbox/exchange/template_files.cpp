@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/next_prime.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 

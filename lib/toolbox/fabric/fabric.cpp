@@ -10,9 +10,8 @@
 #include "toolbox/fabric/contact_lines.h"
 #include "toolbox/fabric/edge_width.h"
 #include "toolbox/volume/label_census.h"
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 

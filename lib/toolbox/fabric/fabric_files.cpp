@@ -6,7 +6,7 @@
 #include <functional>
 #include <sstream>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_writers.h"

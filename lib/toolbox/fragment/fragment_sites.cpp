@@ -9,10 +9,8 @@
 
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/random_stream.h"
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
-#include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"

@@ -8,7 +8,6 @@
 #include "toolbox/convex/parts.h"
 #include "toolbox/exchange/clump_files.h"
 #include "toolbox/exchange/part_files.h"
-#include "toolbox/report/clump_json.h"
 #include "toolbox/report/clump_report.h"
 #include "toolbox/report/parts_report.h"
 #include "toolbox/report/sample_table.h"

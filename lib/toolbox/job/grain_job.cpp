@@ -13,9 +13,9 @@
 
 #include "toolbox/report/sample_table.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt {
 

@@ -13,13 +13,13 @@
 #include "toolbox/sample/grain_grower.h"
 #include "toolbox/sample/grown_mesh.h"
 #include "toolbox/sample/nearest_grain.h"
-#include "toolbox/sample/quick_shape.h"
 #include "toolbox/sample/sample_comparison.h"
+#include "toolbox/sample/sample_grain.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 

@@ -8,7 +8,7 @@
 
 #include "toolbox/job/grain_run.h"
 #include "toolbox/sample/given_sizes.h"
-#include "toolbox/sample/grow_options.h"
+#include "toolbox/sample/grain_grower.h"
 #include "toolbox/sample/sample_grain.h"
 #include "wscvt/surface/surface_options.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"

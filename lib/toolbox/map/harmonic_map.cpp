@@ -10,7 +10,7 @@
 #include "toolbox/map/harmonic_equations.h"
 #include "toolbox/map/mapped_surface.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_sampling.h"
 

@@ -9,7 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/solid_angle.h"

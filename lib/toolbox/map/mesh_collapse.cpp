@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {

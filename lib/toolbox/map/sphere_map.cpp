@@ -11,7 +11,7 @@
 #include "toolbox/map/map_energy.h"
 #include "toolbox/map/mesh_collapse.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/orientation.h"

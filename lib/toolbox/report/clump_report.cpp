@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "toolbox/report/clump_json.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/csv_table.h"

@@ -5,10 +5,15 @@
 #include <vector>
 
 #include "toolbox/clump/clump.h"
+#include "toolbox/clump/clump_options.h"
 #include "wscvt/base/execution.h"
+#include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
+
+/// Every option of a clump with the name and value of the command line.
+Json json_of(const ClumpOptions& options);
 
 /// Returns the result as lines of plain text for a log.
 std::vector<std::string> clump_lines(const ClumpResult& clump);

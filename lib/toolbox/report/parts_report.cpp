@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "wscvt/base/equivalent_radius.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/csv_table.h"

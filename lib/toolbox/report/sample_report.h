@@ -9,7 +9,6 @@
 #include "toolbox/sample/sample_comparison.h"
 #include "toolbox/sample/sample_files.h"
 #include "toolbox/sample/sample_statistics.h"
-#include "toolbox/sample/voxel_trends.h"
 #include "wscvt/base/execution.h"
 
 namespace wscvt {

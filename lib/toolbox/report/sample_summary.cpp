@@ -15,7 +15,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/figures.h"

@@ -8,7 +8,7 @@
 #include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/report.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "wscvt/base/quantile.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

@@ -10,9 +10,9 @@
 #include <string>
 #include <utility>
 
-#include "toolbox/sample/quick_shape.h"
+#include "toolbox/sample/sample_grain.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/self_intersections.h"

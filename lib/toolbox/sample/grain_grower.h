@@ -4,15 +4,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "toolbox/sample/grow_options.h"
 #include "toolbox/sample/random_stream.h"
 #include "toolbox/sample/sample_grain.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 
 namespace wscvt {
+
+/// Options of virtual grains.
+struct GrowOptions {
+  /// Number of real grains per virtual grain. With 2 the distributions are closest to the sample's.
+  /// With 4 the grains resemble their donors least.
+  int donors = 3;
+  std::uint64_t seed = 1;
+};
+
+inline constexpr NumberOption<int> donors_option = {
+    "donors", "number of donors", 2, 8, Ends::Both, "real grains per virtual grain"};
+inline constexpr NumberOption<std::uint64_t> sample_seed_option = {
+    "seed",     "seed",
+    0,          std::numeric_limits<std::uint64_t>::max(),
+    Ends::Both, "the same seed gives the same grains"};
 
 /// Features for finding similar grains: two of the form, three of the relief, one of the overhangs.
 using GrainFeatures = Eigen::Matrix<double, 6, 1>;

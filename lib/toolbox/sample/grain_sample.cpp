@@ -10,9 +10,9 @@
 
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/voxel_resolution.h"
 

@@ -16,7 +16,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

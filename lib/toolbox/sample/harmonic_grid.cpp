@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {

@@ -7,7 +7,7 @@
 #include "toolbox/map/mapped_surface.h"
 #include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 

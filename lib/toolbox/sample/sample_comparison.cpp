@@ -12,7 +12,7 @@
 
 #include "toolbox/sample/random_stream.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {

@@ -7,17 +7,17 @@
 #include <string>
 
 #include "toolbox/map/mapped_surface.h"
-#include "toolbox/sample/grow_options.h"
-#include "toolbox/sample/quick_shape.h"
-#include "wscvt/base/equivalent_radius.h"
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/option.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/form_axes.h"
 #include "wscvt/repair/handles.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/self_intersections.h"
@@ -73,51 +73,6 @@ Eigen::Matrix3d axes_of(const HarmonicGrid& grid, const std::vector<double>& rad
   axes.col(2) = axes.col(0).cross(axes.col(1));
   return axes;
 }
-
-}  // namespace
-
-SampleGrids::SampleGrids(int degree)
-    : radial_(checked_degree(degree), rows_of(degree)),
-      white_(white_degree_of(degree), rows_of(white_degree_of(degree))),
-      fine_radial_(degree, fine_rows_of(degree)),
-      fine_white_(white_degree_of(degree), fine_rows_of(degree)),
-      sphere_(subdivided_sphere(measuring_frequency)) {}
-
-std::optional<std::vector<double>> radii_in_frame(const LogRadii& surface, const Vector3& centre,
-                                                  const Eigen::Matrix3d& axes,
-                                                  const std::vector<Vector3>& directions) {
-  constexpr int most_steps = 60;
-  constexpr double tolerance = 1e-9;
-  std::vector<double> radii(directions.size(), 0.0);
-  std::vector<std::size_t> open(directions.size());
-  for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
-  std::vector<Vector3> rays;
-  std::vector<double> values;
-  for (int step = 0; step < most_steps && !open.empty(); ++step) {
-    rays.clear();
-    for (const std::size_t k : open) {
-      const Vector3 ray = axes * directions[k];
-      rays.push_back(radii[k] == 0.0 ? ray : centre + radii[k] * ray);
-    }
-    std::vector<Vector3> units = rays;
-    for (Vector3& unit : units) unit.normalize();
-    values.resize(units.size());
-    if (!surface(units, values)) return {};
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      const std::size_t k = open[i];
-      const double ratio = portable::exp(values[i]) / rays[i].norm();
-      radii[k] = radii[k] == 0.0 ? ratio : radii[k] * ratio;
-      if (!(radii[k] > 0.0 && std::isfinite(radii[k]))) return {};
-      if (step == 0 || std::abs(ratio - 1.0) > tolerance) open[kept++] = k;
-    }
-    open.resize(kept);
-  }
-  if (!open.empty()) return {};
-  return radii;
-}
-
-namespace {
 
 std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
                                              const SampleGrids& grids) {
@@ -220,6 +175,56 @@ SampleGrain measured(SampleGrain grain, const SampleGrids& grids) {
 }
 
 }  // namespace
+
+QuickShape quick_shape(const IndexedMesh& mesh, const Execution& execution) {
+  QuickShape quick;
+  quick.shape = describe_shape(mesh, execution);
+  const Vector3& axes = quick.shape.inertia_semi_axes;
+  quick.form = form_ratios({axes[0], axes[1], axes[2]});
+  quick.convexity = quick.shape.volume / volume_of(convex_hull(mesh.points, execution), execution);
+  return quick;
+}
+
+SampleGrids::SampleGrids(int degree)
+    : radial_(checked_degree(degree), rows_of(degree)),
+      white_(white_degree_of(degree), rows_of(white_degree_of(degree))),
+      fine_radial_(degree, fine_rows_of(degree)),
+      fine_white_(white_degree_of(degree), fine_rows_of(degree)),
+      sphere_(subdivided_sphere(measuring_frequency)) {}
+
+std::optional<std::vector<double>> radii_in_frame(const LogRadii& surface, const Vector3& centre,
+                                                  const Eigen::Matrix3d& axes,
+                                                  const std::vector<Vector3>& directions) {
+  constexpr int most_steps = 60;
+  constexpr double tolerance = 1e-9;
+  std::vector<double> radii(directions.size(), 0.0);
+  std::vector<std::size_t> open(directions.size());
+  for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
+  std::vector<Vector3> rays;
+  std::vector<double> values;
+  for (int step = 0; step < most_steps && !open.empty(); ++step) {
+    rays.clear();
+    for (const std::size_t k : open) {
+      const Vector3 ray = axes * directions[k];
+      rays.push_back(radii[k] == 0.0 ? ray : centre + radii[k] * ray);
+    }
+    std::vector<Vector3> units = rays;
+    for (Vector3& unit : units) unit.normalize();
+    values.resize(units.size());
+    if (!surface(units, values)) return {};
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const std::size_t k = open[i];
+      const double ratio = portable::exp(values[i]) / rays[i].norm();
+      radii[k] = radii[k] == 0.0 ? ratio : radii[k] * ratio;
+      if (!(radii[k] > 0.0 && std::isfinite(radii[k]))) return {};
+      if (step == 0 || std::abs(ratio - 1.0) > tolerance) open[kept++] = k;
+    }
+    open.resize(kept);
+  }
+  if (!open.empty()) return {};
+  return radii;
+}
 
 SampleGrain sample_grain(const HarmonicSurface& surface, const SampleGrids& grids,
                          const Execution& execution) {

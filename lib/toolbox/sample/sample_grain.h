@@ -9,9 +9,25 @@
 #include "toolbox/sample/offset_surface.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
+
+/// Degree of the series with which grains of a sample are read and grown.
+inline constexpr NumberOption<int> sample_degree_option = {
+    "degree", "degree of the SH series", 4, 56, Ends::Both, "detail of the virtual grains"};
+
+/// Descriptors that are quick to measure.
+struct QuickShape {
+  ShapeDescriptors shape;
+  FormRatios form;         ///< of the inertia ellipsoid
+  double convexity = 0.0;  ///< volume / volume of the convex hull; no unit
+};
+
+/// Measures a mesh. Throws as describe_shape.
+QuickShape quick_shape(const IndexedMesh& mesh, const Execution& execution);
 
 /// A real grain of a sample, without its pose and its size.
 struct SampleGrain {

@@ -14,7 +14,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/text_fields.h"
 #endif
 

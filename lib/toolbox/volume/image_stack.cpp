@@ -10,8 +10,7 @@
 
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
-#include "wscvt/base/file_name.h"
-#include "wscvt/base/numbered_names.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

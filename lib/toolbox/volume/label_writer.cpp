@@ -9,8 +9,8 @@
 #include <ostream>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

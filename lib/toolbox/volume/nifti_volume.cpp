@@ -14,7 +14,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #endif
 

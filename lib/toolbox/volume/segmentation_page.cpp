@@ -8,7 +8,7 @@
 
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/sample/distribution.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"

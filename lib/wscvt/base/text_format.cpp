@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt {
 

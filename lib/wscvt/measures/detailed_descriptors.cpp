@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "wscvt/base/convex_hull.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/feret_diameters.h"
@@ -12,7 +12,7 @@
 #include "wscvt/measures/printed_sdq.h"
 #include "wscvt/measures/roughness.h"
 #include "wscvt/measures/roundness.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {

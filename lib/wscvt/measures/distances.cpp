@@ -10,7 +10,7 @@
 
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mesh_place.h"

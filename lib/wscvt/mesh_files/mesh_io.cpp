@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/byte_reader.h"
 #include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/readers.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "wscvt/base/lower_case.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt {
 

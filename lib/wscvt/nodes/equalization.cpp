@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "wscvt/base/smooth_step.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/surface/delaunay_flips.h"
 #include "wscvt/surface/star_shape.h"
 #include "wscvt/surface/triangle_place.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/nodes/fit_steps.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/nodes/fit_steps.h"
 

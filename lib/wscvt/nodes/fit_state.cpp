@@ -8,9 +8,8 @@
 #include <utility>
 
 #include "wscvt/base/counting_sort.h"
-#include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/smooth_step.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/scan_nodes_options.h"
 

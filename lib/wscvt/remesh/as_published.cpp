@@ -7,7 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/harmonic_surface.h"

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "wscvt/base/equivalent_radius.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/remesh/as_published.h"

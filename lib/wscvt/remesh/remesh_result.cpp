@@ -2,7 +2,7 @@
 #include "wscvt/remesh/remesh_result.h"
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/remesh/error_measure.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/shtools_io.h"

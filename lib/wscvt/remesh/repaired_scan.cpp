@@ -5,9 +5,9 @@
 
 #include "wscvt/repair/coordinates.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/repair/point_cloud.h"
 #include "wscvt/repair/shrink_wrap.h"
-#include "wscvt/repair/steep_area.h"
 
 namespace wscvt {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/edge_rings.h"

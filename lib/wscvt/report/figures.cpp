@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/picture.h"
 

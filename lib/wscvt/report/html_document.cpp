@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 #include "wscvt/report/html_document.h"
 
 namespace wscvt {

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
 #include "wscvt/report/csv_table.h"
 #include "wscvt/report/report.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 

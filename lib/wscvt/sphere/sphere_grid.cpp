@@ -6,7 +6,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 
 namespace wscvt {

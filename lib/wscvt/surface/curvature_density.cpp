@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/curvature.h"

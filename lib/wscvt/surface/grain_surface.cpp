@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/file_name.h"
+#include "wscvt/base/text.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/shtools_io.h"

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
-#include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/repair/overhang_solid_angle.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
 #include "wscvt/surface/mesh_surface.h"

@@ -13,8 +13,8 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/pi.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/harmonic_transform.h"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/surface/spherical_harmonics.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 
 // The hot loops are compiled three times on x86-64: for every processor, with AVX2 and with

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "wscvt/base/smooth_step.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 
 namespace wscvt {

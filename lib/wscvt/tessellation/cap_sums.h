@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_grid.h"
 
 namespace wscvt {

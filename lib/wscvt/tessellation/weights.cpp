@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/tessellation/cap_sums.h"
 
 namespace wscvt {

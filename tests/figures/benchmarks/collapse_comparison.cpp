@@ -28,7 +28,7 @@
 
 #include "grains/ct_grain.h"
 #include "support/test_shapes.h"
-#include "wscvt/base/pi.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/repair/mesh_check.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/base/plastic_sequence.h"
+#include "wscvt/base/numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +8,15 @@
 
 namespace wscvt {
 namespace {
+
+TEST(NextPrime, IsTheSmallestAbove) {
+  EXPECT_EQ(next_prime(1), 2);
+  EXPECT_EQ(next_prime(2), 3);
+  EXPECT_EQ(next_prime(7), 11);
+  EXPECT_EQ(next_prime(119), 127);  // over 121 = 11^2
+  // The largest of 31 bits, whose divisors' squares overflow.
+  EXPECT_EQ(next_prime(2147483646), 2147483647);
+}
 
 TEST(PlasticSequence, EveryStretchIsSpreadEvenly) {
   for (const std::size_t first : {0U, 1U, 977U, 1000000U}) {

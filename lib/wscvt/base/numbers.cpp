@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/base/quantile.h"
+#include "wscvt/base/numbers.h"
 
 #include <algorithm>
 #include <cstddef>

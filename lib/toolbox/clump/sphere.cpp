@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/clump/sphere_mesh.h"
+#include "toolbox/clump/sphere.h"
 
 #include <algorithm>
 #include <array>

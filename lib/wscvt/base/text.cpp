@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/base/readable_text.h"
+#include "wscvt/base/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <filesystem>
 #include <system_error>
 
 namespace wscvt {
 
 namespace {
+
+bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
+
+/// Returns the number of digits from `at`.
+std::size_t digits_from(const std::string& text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  return end - at;
+}
 
 /// Returns the number of bytes of a text's first character; 0 if it is not UTF-8.
 std::size_t utf8_length(std::string_view text) {
@@ -40,6 +51,46 @@ bool is_number(std::string_view text) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  // Not std::tolower, because it depends on the locale.
+  for (char& letter : lower) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return lower;
+}
+
+std::string ending_of(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
+
+// The names are compared from their first difference on. If it lies within numbers without leading
+// zeros, the number with more digits is larger. A number with leading zeros counts as the decimals
+// of a fraction: so 000 < 00 < 01 < 010 < 09 < 0 < 1 < 9 < 10, as the manual of strverscmp says.
+int compare_numbered(const std::string& a, const std::string& b) {
+  const std::size_t shorter = std::min(a.size(), b.size());
+  std::size_t at = 0;
+  while (at < shorter && a[at] == b[at]) ++at;
+  if (at == a.size() && at == b.size()) return 0;
+  std::size_t begin = at;
+  while (begin > 0 && is_digit(a[begin - 1])) --begin;
+  const std::size_t digits_a = digits_from(a, at);
+  const std::size_t digits_b = digits_from(b, at);
+  const bool has_prefix = begin < at;
+  const char first_a = begin < a.size() ? a[begin] : '\0';
+  const char first_b = begin < b.size() ? b[begin] : '\0';
+  if (is_digit(first_a) && is_digit(first_b) && first_a != '0' && first_b != '0') {
+    if (digits_a != digits_b) return digits_a < digits_b ? -1 : 1;
+  } else if (has_prefix && a.find_first_not_of('0', begin) >= at &&
+             (digits_a > 0 || digits_b > 0)) {
+    // Behind equal zeros, another digit makes a longer fraction, which comes first.
+    if (digits_a == 0 || digits_b == 0) return digits_a > 0 ? -1 : 1;
+  }
+  const int byte_a = at < a.size() ? static_cast<unsigned char>(a[at]) : -1;
+  const int byte_b = at < b.size() ? static_cast<unsigned char>(b[at]) : -1;
+  return byte_a - byte_b;
+}
 
 std::string readable(std::string_view text, std::string_view kept) {
   constexpr const char* digits = "0123456789ABCDEF";

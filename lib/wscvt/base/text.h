@@ -6,6 +6,18 @@
 
 namespace wscvt {
 
+/// Returns the text with the letters A to Z as a to z. Other bytes stay. Does not depend on the
+/// locale.
+std::string lower_case(std::string_view text);
+
+/// Returns the extension of a file name in lower case, with the point: ".ply". Empty if there is no
+/// extension.
+std::string ending_of(const std::string& path);
+
+/// Compares names by the values of the numbers in them, as strverscmp of GNU does: 9 comes before
+/// 10. Negative if `a` comes first, 0 if the names are equal. Names have no NUL.
+int compare_numbered(const std::string& a, const std::string& b);
+
 // Converts foreign text, such as a file name, for terminals, tables and HTML pages.
 
 /// Returns the text as UTF-8 that is safe in a terminal, a table and a page. Bytes of control
