@@ -46,7 +46,7 @@ struct SolidAngleSums {
     return *this;
   }
 
-  /// See overhang_solid_angle in overhang_solid_angle.h.
+  /// See overhang_solid_angle in overhangs.h.
   double overhang_fraction() const {
     constexpr double four_pi = 4.0 * pi;
     // The signed angles sum to 4 pi seen from inside and to 0 seen from outside.
