@@ -13,7 +13,6 @@
 
 #include "creation_filter.h"
 #include "descriptor_filter.h"
-#include "everyday_filter.h"
 #include "remesh_filter.h"
 #include "remesh_report.h"
 #include "shown_words.h"
@@ -295,7 +294,6 @@ FilterOutcome run_on(FilterId filter, const ParameterList& parameters,
       return create_layer(values, layers, execution);
     case FilterId::Describe:
       return describe_layer(values, layers, execution);
-    case FilterId::Everyday:
     case FilterId::Remesh:
       break;
   }
@@ -306,10 +304,8 @@ FilterOutcome run_on(FilterId filter, const ParameterList& parameters,
 
 std::vector<Filter> all_filters() {
   return {
-      {FilterId::Everyday, everyday_name(), "meshing_grain_to_node_count", everyday_help(),
-       everyday_parameters(), FilterMenu::Remeshing, false, true},
       {FilterId::Remesh, remesh_name(), "meshing_weighted_spherical_voronoi", remesh_help(),
-       with_advanced_flags(remesh_parameters()), FilterMenu::Remeshing, false, true},
+       remesh_parameters(), FilterMenu::Remeshing, false, true},
       {FilterId::Create, creation_name(), "create_grain", creation_help(), creation_parameters(),
        FilterMenu::Creation, false, true},
       {FilterId::Describe, descriptor_name(), "get_grain_shape_descriptors", descriptor_help(),

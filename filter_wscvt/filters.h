@@ -16,7 +16,7 @@ namespace wscvt::filter {
 // layers and a callback to run_filter.
 
 /// In the order of the host's action numbers.
-enum class FilterId { Everyday, Remesh, Create, Describe };
+enum class FilterId { Remesh, Create, Describe };
 
 /// The host's category for a filter.
 enum class FilterMenu { Remeshing, Creation, Measure };

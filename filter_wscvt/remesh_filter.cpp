@@ -2,6 +2,7 @@
 #include "remesh_filter.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "report_file.h"
 #include "wscvt/base/error.h"
@@ -20,25 +21,23 @@ std::string remesh_help() {
          "10.6052/j.issn.1000-4750.2022.07.0614";
 }
 
-ParameterList remesh_parameters() {
+namespace {
+
+/// The parameters that a grain seldom needs.
+ParameterList seldom_needed_parameters() {
   const RemeshOptions defaults;
   const AsPublishedOptions published;
-  return {
-      node_count_parameter(),
+  ParameterList parameters = {
       option_parameter(
           "ErrorTarget", defaults.target.percent, error_target_option, "Allowed error (%)",
           "Above 0: searches the smallest number of nodes with at most this error, from the one "
-          "given "
-          "up to " +
+          "given up to " +
               typed_text(defaults.target.largest_node_count) +
               ". The log lists the errors. Takes ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error measure",
                       "The error to be limited, in % of the scan's value."),
-      method_parameter(Method::OnScan),
-      weighting_parameter(),
       curvature_alpha_parameter(),
       placement_parameter(),
-      edge_ratio_parameter(),
       option_parameter("HarmonicDegree", defaults.degree, harmonic_degree_option,
                        "Degree of the SH series",
                        "As published: degree of the spherical-harmonic surface. On the scan: "
@@ -61,20 +60,37 @@ ParameterList remesh_parameters() {
           "NewLayer", true, "Result as a new layer",
           "Unchecked: the result replaces the scan, which cannot be undone. Checked: it becomes a "
           "new, current layer."),
-      flag_parameter("Distances", defaults.measures.distances, "Measure distances",
+      flag_parameter("KeepColors", true, "Keep colors and labels",
+                     "The result takes color and quality from the nearest point of the scan. "
+                     "The scan's quality then replaces the radial distance."),
+      output_file_parameter("CoefficientsFile", {".json", ".sh"}, "Coefficients file",
+                            "For the coefficients of the SH series: .json, or .sh for SHTOOLS (no "
+                            "overhangs). Empty: no file. The filter that creates grains reads it."),
+  };
+  for (FilterParameter& parameter : parameters) parameter.advanced = true;
+  return parameters;
+}
+
+}  // namespace
+
+ParameterList remesh_parameters() {
+  ParameterList parameters = {
+      node_count_parameter(),
+      method_parameter(Method::OnScan),
+      weighting_parameter(),
+      edge_ratio_parameter(),
+      flag_parameter("Distances", RemeshOptions().measures.distances, "Measure distances",
                      "Largest, rms and mean distance between scan and remesh, both ways, for log "
                      "and report. Takes about a second."),
       table_parameter("Quality", RemeshSettings().result.quality, "Vertex quality",
                       "Value stored as the quality of each vertex of the result."),
       colour_by_quality_parameter(),
-      flag_parameter("KeepColors", true, "Keep colors and labels",
-                     "The result takes color and quality from the nearest point of the scan. "
-                     "The scan's quality then replaces the radial distance."),
       report_file_parameter(),
-      output_file_parameter("CoefficientsFile", {".json", ".sh"}, "Coefficients file",
-                            "For the coefficients of the SH series: .json, or .sh for SHTOOLS (no "
-                            "overhangs). Empty: no file. The filter that creates grains reads it."),
   };
+  for (FilterParameter& parameter : seldom_needed_parameters()) {
+    parameters.push_back(std::move(parameter));
+  }
+  return parameters;
 }
 
 namespace {

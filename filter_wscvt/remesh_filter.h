@@ -15,6 +15,7 @@ std::string remesh_name();
 /// Returns the filter's description, limits and references as HTML.
 std::string remesh_help();
 
+/// The most important first; the others are advanced.
 ParameterList remesh_parameters();
 
 /// All settings of the user.

@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Starts MeshLab with a mesh, opens the plugin's filter "Grain to a Number of Nodes", applies it by mouse
+# Starts MeshLab with a mesh, opens the plugin's filter that remeshes, applies it by mouse
 # and writes two pictures: the dialog and the result.
 #   filter_wscvt/show_filter.sh MESHLAB MESH DIALOG_PNG RESULT_PNG
 # Run it with xvfb-run. Needs xdotool and ImageMagick's import.
 set -eu
-filter="Remeshing: Grain to a Number of Nodes"
+filter="Remeshing: Weighted Spherical Centroidal Voronoi"
 work=$(mktemp -d)
 meshlab=
 trap 'if [ -n "$meshlab" ]; then kill "$meshlab" 2>/dev/null || true; fi; rm -rf "$work"' EXIT

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shown_words.h"
 
-#include <algorithm>
 #include <map>
 #include <regex>
 #include <string_view>
 
-#include "everyday_filter.h"
 #include "filters.h"
-#include "remesh_filter.h"
 #include "wscvt/remesh/error_target.h"
 #include "wscvt/remesh/remesh_options.h"
 
@@ -48,15 +45,6 @@ const std::map<std::string_view, const char*>& names_by_option() {
   return names;
 }
 
-/// Whether the remesher has the parameter but the basic dialog does not.
-bool is_in_full_dialog_only(const std::string& name) {
-  const auto holds = [&](const ParameterList& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const FilterParameter& parameter) { return parameter.name == name; });
-  };
-  return holds(remesh_parameters()) && !holds(everyday_parameters());
-}
-
 /// Returns the value of an option as the dialog shows it, if it is one of the enumeration's.
 template <class Enumeration>
 void show_value(const NamedOption& option, std::string& shown) {
@@ -75,9 +63,7 @@ std::string shown_option(const NamedOption& option,
   show_value<Method>(option, value);
   show_value<ScanPlacement>(option, value);
   show_value<PublishedPlacement>(option, value);
-  const std::string label =
-      "\"" + labels.at(name->second) + (value.empty() ? "" : ": " + value) + "\"";
-  return is_in_full_dialog_only(name->second) ? label + " (in " + remesh_name() + ")" : label;
+  return "\"" + labels.at(name->second) + (value.empty() ? "" : ": " + value) + "\"";
 }
 
 /// Returns the text with the label before a script parameter: "Parameter \"Report file\"

@@ -22,7 +22,6 @@
 #include "calls.h"
 #include "creation_filter.h"
 #include "descriptor_filter.h"
-#include "everyday_filter.h"
 #include "filters.h"
 #include "host.h"
 #include "log_text.h"
@@ -42,7 +41,6 @@ namespace {
 
 const QString filter_menu_text = "Remeshing: Weighted Spherical Centroidal Voronoi";
 
-const QString everyday_menu_text = "Remeshing: Grain to a Number of Nodes";
 const QString creation_menu_text = "Create: grain from ellipsoid, superellipsoid or harmonics";
 const QString descriptor_menu_text = "Grain shape descriptors";
 
@@ -173,33 +171,28 @@ std::vector<LayerState> state_of(MeshDocument& document) {
 TEST(Filter, IsFoundByTheWordsThatPeopleSearchFor) {
   // MeshLab's search (searcher.cpp) splits name and tooltip into words and takes each prefix of
   // three letters and more; words in brackets of HTML are left out.
-  for (const QString& name : {filter_menu_text, everyday_menu_text}) {
-    LoadedFilter filter(name);
-    QString text = (name + " " + filter.plugin().filterInfo(filter.action())).toLower();
-    text.remove(QRegExp("<[^>]*>"));
-    const QStringList words = text.split(QRegExp("\\W+"), Qt::SkipEmptyParts);
-    for (const QString searched : {"wscvt", "voronoi", "cvt", "sand", "grain", "particle", "dem",
-                                   "remesh", "resample", "simplify", "decimate", "isotropic"}) {
-      const bool found = std::any_of(words.begin(), words.end(), [&](const QString& word) {
-        return word.startsWith(searched);
-      });
-      EXPECT_TRUE(found) << name.toStdString() << ": " << searched.toStdString();
-    }
+  LoadedFilter filter;
+  QString text = (filter_menu_text + " " + filter.plugin().filterInfo(filter.action())).toLower();
+  text.remove(QRegExp("<[^>]*>"));
+  const QStringList words = text.split(QRegExp("\\W+"), Qt::SkipEmptyParts);
+  for (const QString searched : {"wscvt", "voronoi", "cvt", "sand", "grain", "particle", "dem",
+                                 "remesh", "resample", "simplify", "decimate", "isotropic"}) {
+    const bool found = std::any_of(words.begin(), words.end(),
+                                   [&](const QString& word) { return word.startsWith(searched); });
+    EXPECT_TRUE(found) << searched.toStdString();
   }
 }
 
 TEST(Filter, NamesMenusAndConditionsAreFrozen) {
   LoadedFilter loaded;
   Plugin& plugin = loaded.plugin();
-  ASSERT_EQ(actions_of(plugin).size(), 4U);
+  ASSERT_EQ(actions_of(plugin).size(), 3U);
   const int changes = MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
-  for (const QString& name : {everyday_menu_text, filter_menu_text}) {
-    QAction* remesh = LoadedFilter(name).action();
-    EXPECT_EQ(plugin.getClass(remesh), Plugin::Remeshing);
-    EXPECT_EQ(plugin.filterArity(remesh), Plugin::SINGLE_MESH);
-    EXPECT_EQ(plugin.getPreConditions(remesh), MeshModel::MM_NONE);  // points without faces too
-    EXPECT_EQ(plugin.postCondition(remesh) & changes, changes);
-  }
+  QAction* remesh = loaded.action();
+  EXPECT_EQ(plugin.getClass(remesh), Plugin::Remeshing);
+  EXPECT_EQ(plugin.filterArity(remesh), Plugin::SINGLE_MESH);
+  EXPECT_EQ(plugin.getPreConditions(remesh), MeshModel::MM_NONE);  // points without faces too
+  EXPECT_EQ(plugin.postCondition(remesh) & changes, changes);
 
   QAction* create = LoadedFilter(creation_menu_text).action();
   EXPECT_EQ(plugin.getClass(create), Plugin::MeshCreation);
@@ -215,9 +208,9 @@ TEST(Filter, NamesMenusAndConditionsAreFrozen) {
 
   std::vector<std::string> python_names;
   for (const filter::Filter& each : filter::all_filters()) python_names.push_back(each.python_name);
-  EXPECT_EQ(python_names, (std::vector<std::string>{
-                              "meshing_grain_to_node_count", "meshing_weighted_spherical_voronoi",
-                              "create_grain", "get_grain_shape_descriptors"}));
+  EXPECT_EQ(python_names,
+            (std::vector<std::string>{"meshing_weighted_spherical_voronoi", "create_grain",
+                                      "get_grain_shape_descriptors"}));
 }
 
 TEST(Filter, HelpNamesTheMethodAndItsSource) {
@@ -270,31 +263,20 @@ TEST(Filter, BriefTooltipIsOfWholeSentences) {
   EXPECT_EQ(filter::brief_tooltip(parameter, 24), "");
 }
 
-TEST(EverydayFilter, HasAtMostTenOfTheRemeshersParameters) {
-  const filter::ParameterList few = filter::everyday_parameters();
-  EXPECT_LE(few.size(), 10U);
-  EXPECT_EQ(few.front().name, "NodeCount");
-  LoadedFilter everyday(everyday_menu_text);
+TEST(Filter, ParametersOfEveryDayAreFirstAndNotFoldedAway) {
   LoadedFilter remesher;
   MeshDocument document;
-  const RichParameterList all = remesher.parameters(document);
-  EXPECT_EQ(everyday.parameters(document).size(), few.size());
-  for (const RichParameter& parameter : everyday.parameters(document)) {
-    SCOPED_TRACE(parameter.name().toStdString());
-    ASSERT_TRUE(all.hasParameter(parameter.name()));
-    QDomDocument xml;
-    const QDomElement mine = parameter.fillToXMLDocument(xml);
-    const QDomElement theirs = all.getParameterByName(parameter.name()).fillToXMLDocument(xml);
-    EXPECT_EQ(mine.attribute("value"), theirs.attribute("value"));
-    EXPECT_FALSE(is_advanced(parameter));
+  QStringList of_every_day;
+  for (const RichParameter& parameter : remesher.parameters(document)) {
+    of_every_day << parameter.name();
+    if (of_every_day.size() == 8) break;
   }
-  // What is not everyday is folded away where the host can.
-  for (const RichParameter& parameter : all) {
-    const bool is_everyday =
-        std::any_of(few.begin(), few.end(), [&](const filter::FilterParameter& each) {
-          return QString::fromStdString(each.name) == parameter.name();
-        });
-    EXPECT_EQ(is_advanced(parameter), host_folds_parameters && !is_everyday)
+  EXPECT_EQ(of_every_day, (QStringList{"NodeCount", "Method", "Weighting", "EdgeRatio", "Distances",
+                                       "Quality", "ColorByQuality", "ReportFile"}))
+      << of_every_day.join(' ').toStdString();
+  for (const RichParameter& parameter : remesher.parameters(document)) {
+    EXPECT_EQ(is_advanced(parameter),
+              host_folds_parameters && !of_every_day.contains(parameter.name()))
         << parameter.name().toStdString();
   }
 }
@@ -310,23 +292,6 @@ TEST(CreationFilter, FoldsAwayWhatIsSeldomNeeded) {
     }
   }
   EXPECT_EQ(shown, host_folds_parameters ? 14U : loaded.parameters(document).size());
-}
-
-TEST(EverydayFilter, GivesWhatTheRemesherGives) {
-  MeshDocument document;
-  MeshModel& scan = add_layer(document, grain());
-  std::vector<LayerState> results;
-  for (const QString& name : {everyday_menu_text, filter_menu_text}) {
-    LoadedFilter loaded(name);
-    document.setCurrentMesh(scan.id());
-    RichParameterList parameters = loaded.parameters(document);
-    parameters.setValue("NodeCount", IntValue(150));
-    parameters.setValue("Weighting", EnumValue(2));
-    ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
-    results.push_back(state_of(*document.mm()));
-    results.back().label.clear();
-  }
-  EXPECT_TRUE(results[0] == results[1]);
 }
 
 /// Names, types and defaults, one a line.
@@ -354,16 +319,14 @@ QString listed_parameters(const QString& menu_text) {
 }
 
 TEST(Filter, ParameterNamesTypesAndDefaultsAreFrozen) {
-  const QStringList remesh{"NodeCount RichInt 1000",     "ErrorTarget RichFloat 0",
-                           "TargetMeasure RichEnum 4",   "Method RichEnum 0",
-                           "Weighting RichEnum 1",       "CurvatureAlpha RichFloat 1",
-                           "Placement RichEnum 4",       "EdgeRatio RichFloat 1.1",
-                           "HarmonicDegree RichInt 20",  "FoldLimit RichFloat 5",
-                           "MendLimit RichFloat 5",      "Points RichBool false",
-                           "NewLayer RichBool true",     "Distances RichBool false",
-                           "Quality RichEnum 0",         "ColorByQuality RichBool false",
-                           "KeepColors RichBool true",   "ReportFile OutputFile",
-                           "CoefficientsFile OutputFile"};
+  const QStringList remesh{
+      "NodeCount RichInt 1000",        "Method RichEnum 0",          "Weighting RichEnum 1",
+      "EdgeRatio RichFloat 1.1",       "Distances RichBool false",   "Quality RichEnum 0",
+      "ColorByQuality RichBool false", "ReportFile OutputFile",      "ErrorTarget RichFloat 0",
+      "TargetMeasure RichEnum 4",      "CurvatureAlpha RichFloat 1", "Placement RichEnum 4",
+      "HarmonicDegree RichInt 20",     "FoldLimit RichFloat 5",      "MendLimit RichFloat 5",
+      "Points RichBool false",         "NewLayer RichBool true",     "KeepColors RichBool true",
+      "CoefficientsFile OutputFile"};
   EXPECT_EQ(listed_parameters(filter_menu_text).toStdString(), remesh.join("\n").toStdString());
   const QStringList create{"Surface RichEnum 0",         "SemiAxisX RichFloat 1",
                            "SemiAxisY RichFloat 1",      "SemiAxisZ RichFloat 1",
@@ -886,11 +849,8 @@ TEST(Filter, SentencesNameWhatIsOnTheScreen) {
   EXPECT_EQ(shown("Use " + mention("edge-ratio", "1.4") + "."),
             "Use \"Mean edge ratio (on the scan): 1.4\".");
   EXPECT_EQ(shown("Raise " + mention("degree") + ", or use " + mention(Method::OnScan) + "."),
-            "Raise \"Degree of the SH series\" (in Remeshing: Weighted Spherical Centroidal "
-            "Voronoi), or use \"Method: On the scan\".");
-  EXPECT_EQ(shown(mention(PublishedPlacement::Surface)),
-            "\"Node placement: On the surface\" (in Remeshing: Weighted Spherical Centroidal "
-            "Voronoi)");
+            "Raise \"Degree of the SH series\", or use \"Method: On the scan\".");
+  EXPECT_EQ(shown(mention(PublishedPlacement::Surface)), "\"Node placement: On the surface\"");
   // Options that only the program has.
   EXPECT_EQ(shown("use " + mention("shrink-wrap", "5") + " and"), "use wscvt --shrink-wrap 5 and");
   EXPECT_EQ(shown("(" + mention(HandleAction::Keep) + ")."), "(wscvt --handles keep).");
@@ -1100,7 +1060,7 @@ TEST(Filter, SaysWhatItReadFromAScriptThatLacksMost) {
   few.addParam(RichBool("Distances", true));
   ASSERT_TRUE(loaded.apply(document, few)) << loaded.message();
   EXPECT_TRUE(
-      loaded.log().contains("Warning: Only NodeCount, HarmonicDegree and Distances could be read "
+      loaded.log().contains("Warning: Only NodeCount, Distances and HarmonicDegree could be read "
                             "from the script. All other parameters have their defaults."))
       << loaded.log().join("\n").toStdString();
   // A dialog gives all, and nothing is said.

@@ -16,7 +16,6 @@
 
 #include "creation_filter.h"
 #include "descriptor_filter.h"
-#include "everyday_filter.h"
 #include "programs.h"
 #include "remesh_filter.h"
 #include "sample_meshes.h"
@@ -27,7 +26,6 @@ namespace wscvt::host_test {
 namespace {
 
 const QString remesh_menu_text = QString::fromStdString(filter::remesh_name());
-const QString everyday_title = QString::fromStdString(filter::everyday_name());
 const std::string host_version = WSCVT_MESHLAB_VERSION;
 constexpr double patience = 120.0;  // seconds for any one step
 
@@ -240,26 +238,26 @@ class Window {
   QString log_;
 };
 
-TEST(Window, EverydayFilterIsAppliedByMouseOnASmallScreen) {
+TEST(Window, IsAppliedTwiceByMouseOnASmallScreen) {
   QTemporaryDir folder;
   Window meshlab(sample("sand_7228.ply"), folder.path(), small_screen);
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
   meshlab.screenshot("small_screen.png");
-  EXPECT_TRUE(meshlab.is_on_screen(everyday_title));
-  meshlab.apply(everyday_title);
-  ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
+  EXPECT_TRUE(meshlab.is_on_screen(remesh_menu_text));
+  meshlab.apply(remesh_menu_text);
+  ASSERT_TRUE(meshlab.wait_for_log(remesh_menu_text + " in ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.log().contains("volume"));
   // Dialog, result and log: the picture of the README.
-  meshlab.move(everyday_title, {0, 70});
+  meshlab.move(remesh_menu_text, {0, 70});
   QThread::msleep(1000);
   meshlab.screenshot("applied.png");
 
   // The dialog is still there: once more, on the scan and not on the remesh.
-  meshlab.apply(everyday_title);
+  meshlab.apply(remesh_menu_text);
   ASSERT_TRUE(meshlab.wait_for_log("is a remesh of 'sand_7228.ply'"))
       << meshlab.log().toStdString();
-  meshlab.close(everyday_title);
+  meshlab.close(remesh_menu_text);
   meshlab.screenshot("small_screen_result.png");
   EXPECT_TRUE(meshlab.is_running());
 }
@@ -292,11 +290,11 @@ TEST(Window, WarningIsInViewOnASmallScreen) {
   QTemporaryDir folder;
   Window meshlab(sample("sand_7228.ply"), folder.path(), small_screen);
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
-  meshlab.set_node_count(everyday_title, "40");
-  meshlab.apply(everyday_title);
-  ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
-  meshlab.close(everyday_title);
+  ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
+  meshlab.set_node_count(remesh_menu_text, "40");
+  meshlab.apply(remesh_menu_text);
+  ASSERT_TRUE(meshlab.wait_for_log(remesh_menu_text + " in ")) << meshlab.log().toStdString();
+  meshlab.close(remesh_menu_text);
   QThread::msleep(1000);
   const QImage screen = meshlab.screenshot("warning.png");
   ASSERT_TRUE(meshlab.log().contains("Warning: ")) << meshlab.log().toStdString();
@@ -327,8 +325,8 @@ TEST_P(WindowOnASmallScreen, FilterIsAppliedByMouse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryFilter, WindowOnASmallScreen,
-                         testing::Values(filter::everyday_name(), filter::remesh_name(),
-                                         filter::creation_name(), filter::descriptor_name()));
+                         testing::Values(filter::remesh_name(), filter::creation_name(),
+                                         filter::descriptor_name()));
 
 class WindowHelp : public testing::TestWithParam<std::string> {};
 
@@ -348,8 +346,8 @@ TEST_P(WindowHelp, StaysOnTheScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryFilter, WindowHelp,
-                         testing::Values(filter::everyday_name(), filter::remesh_name(),
-                                         filter::creation_name(), filter::descriptor_name()));
+                         testing::Values(filter::remesh_name(), filter::creation_name(),
+                                         filter::descriptor_name()));
 
 TEST(Window, FilterAddsALayerThatIsSavedWithTheProject) {
   const QString scan = sample("sand_7228.ply");
@@ -485,19 +483,19 @@ TEST(Window, ApplyDuringARunIsRefusedAndTheRunGoesOn) {
   QTemporaryDir folder;
   Window meshlab(sample("sand_7228.ply"), folder.path());
   ASSERT_TRUE(meshlab.start()) << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.open_filter(everyday_title)) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.open_filter(remesh_menu_text)) << meshlab.log().toStdString();
   // A run of so many takes some seconds.
   const auto apply_with = [&](const QString& nodes) {
-    meshlab.set_node_count(everyday_title, nodes);
-    meshlab.apply(everyday_title);
+    meshlab.set_node_count(remesh_menu_text, nodes);
+    meshlab.apply(remesh_menu_text);
   };
   apply_with("20000");
   QThread::msleep(300);
-  meshlab.apply(everyday_title);
+  meshlab.apply(remesh_menu_text);
   meshlab.expect_failure("applied_twice.png");
   EXPECT_TRUE(meshlab.wait_for_log("is still running. Wait until it is done"))
       << meshlab.log().toStdString();
-  ASSERT_TRUE(meshlab.wait_for_log(everyday_title + " in ")) << meshlab.log().toStdString();
+  ASSERT_TRUE(meshlab.wait_for_log(remesh_menu_text + " in ")) << meshlab.log().toStdString();
   EXPECT_TRUE(meshlab.wait_for_nodes(20000)) << meshlab.log().toStdString();
   // The advice: once it is done.
   apply_with("300");
