@@ -17,6 +17,7 @@ void bind_extract(pybind11::module_& module);
 void bind_attributes(pybind11::module_& module);
 void bind_convex(pybind11::module_& module);
 void bind_fabric(pybind11::module_& module);
+void bind_segment(pybind11::module_& module);
 void bind_fragment(pybind11::module_& module);
 void bind_tetrahedra(pybind11::module_& module);
 void bind_clump(pybind11::module_& module);

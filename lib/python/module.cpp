@@ -15,6 +15,7 @@ PYBIND11_MODULE(_wscvt, module) {
   wscvt::python::bind_remesh(module);
   wscvt::python::bind_measures(module);
   wscvt::python::bind_distances(module);
+  wscvt::python::bind_segment(module);
   wscvt::python::bind_extract(module);
   wscvt::python::bind_attributes(module);
   wscvt::python::bind_convex(module);

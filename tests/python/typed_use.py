@@ -51,6 +51,7 @@ def check(scan: pathlib.Path) -> None:
     wscvt.batch([scan], 500, output=pathlib.Path("out"), frame="principal", alpha=0.5)
     for label, mesh in wscvt.extract(np.zeros((3, 3, 3), dtype=int), 0.5, smallest=10).items():
         wscvt.write_mesh(f"{label}.ply", *mesh)
+    wscvt.segment(np.zeros((3, 3, 3)), 0.5, phases=1)["labels"]
     wscvt.fabric(np.zeros((3, 3, 3), dtype=int), (0.5, 0.5, 1.0), scan=np.zeros((3, 3, 3)))["contacts"]
     distances: npt.NDArray[np.float64] = wscvt.signed_distances(vertices, result)
     values, origin, spacing = wscvt.distance_grid(result, spacing=0.1)

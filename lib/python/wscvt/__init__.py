@@ -30,7 +30,7 @@ from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __v
 __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
            "fabric", "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
-           "sample", "signed_distances", "templates", "tetrahedra", "write_mesh"]
+           "sample", "segment", "signed_distances", "templates", "tetrahedra", "write_mesh"]
 
 
 def _arrays(mesh, faces=None):
@@ -207,6 +207,34 @@ def _named(scans):
             name = pathlib.Path(scan).name
             name = pathlib.Path(name[:-3] if name.lower().endswith(".gz") else name).stem
         yield name, scan
+
+
+def segment(scan, voxel_size=1.0, **options):
+    """Labels the grains of an array of grey values or a mask, as "wscvt segment" does.
+
+    labels = wscvt.segment(tifffile.imread("scan.tif"), 0.012)["labels"]
+    grains = wscvt.extract(labels, 0.012)
+
+    scan: (nz, ny, nx), as returned by numpy.load and tifffile.imread. NaN was not scanned.
+    voxel_size: length, or three along x, y and z. Grains are separated by lengths.
+    threshold: the smallest grey value of the material (the largest if it is dark). None: half way
+        between two peaks of the histogram, see phases.
+    phases: number of peaks that are material, from the brightest on. None: all but one.
+    dark: the material is darker than the rest. Off by default.
+    separate: widest neck between two grains, as a fraction of the smaller one's width, 0 to 1;
+        0.85 by default.
+    smallest: min. number of voxels of a grain, 100 by default.
+    threads: as for remesh.
+    progress: as for remesh.
+
+    Returns a dictionary: "labels" (nz, ny, nx) with grains from 1 and 0 between them, "grains",
+    their number, "threshold" (None for a mask) and "peaks", the grey values of the histogram's
+    peaks. Issues a UserWarning for each sign of a wrong result. Raises Error for a volume of one
+    value and if no grain is left.
+    """
+    if isinstance(voxel_size, numbers.Real):
+        voxel_size = (voxel_size,) * 3
+    return _wscvt.segment(scan, voxel_size, **options)
 
 
 def extract(labels, voxel_size=1.0, **options):

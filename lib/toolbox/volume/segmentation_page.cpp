@@ -163,7 +163,8 @@ double share_of(std::uint64_t part, std::uint64_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
-/// Returns sentences about signs of a wrong segmentation.
+}  // namespace
+
 std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   std::vector<Sentence> doubts;
   if (segmentation.is_flat) {
@@ -238,8 +239,6 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   }
   return doubts;
 }
-
-}  // namespace
 
 std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
   const std::size_t count = segmentation.grains.size() + segmentation.cut;

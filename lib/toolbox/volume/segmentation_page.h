@@ -6,10 +6,14 @@
 
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/execution.h"
+#include "wscvt/base/sentence.h"
 #include "wscvt/report/picture.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
+
+/// Returns sentences about signs of a wrong segmentation; empty if there are none.
+std::vector<Sentence> doubts_of(const Segmentation& segmentation);
 
 /// Returns a few lines about a segmentation: grains, grains at the border, dropped voxels, the
 /// threshold.
