@@ -156,10 +156,6 @@ TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
   // Ends of 2000 repetitions scatter by 4 %.
   EXPECT_NEAR(size.mean.upper - size.mean.value, reach, 0.15 * reach);
   EXPECT_NEAR(size.mean.value - size.mean.lower, reach, 0.15 * reach);
-  // Half the interval wants four times the grains.
-  const double now = 100.0 * 0.5 * (size.mean.upper - size.mean.lower) / size.mean.value;
-  EXPECT_NEAR(grains_needed(size.mean, 400, 0.5 * now), 1600.0, 1.0);
-  EXPECT_TRUE(std::isnan(grains_needed({1.0, no_value, no_value}, 400, 1.0)));
 }
 
 /// 602 grains, so that sums have several blocks; some without a value, some without a mass.
@@ -227,14 +223,6 @@ TEST(SampleStatistics, FewerRepetitionsAreMadeOfVeryManyGrains) {
   EXPECT_EQ(made(60000), 200);  // at least
   options.repetitions = 3;
   EXPECT_EQ(made(60000), 3);
-}
-
-TEST(GrainsNeeded, FollowTheSquareOfTheInterval) {
-  // The interval reaches 2 to either side of -10, 20 %; wanted are 5 %: 16 times the grains.
-  EXPECT_EQ(grains_needed({-10.0, -12.0, -8.0}, 50, 5.0), 800.0);
-  EXPECT_EQ(grains_needed({10.0, 7.0, 11.0}, 3, 20.0), 3.0);
-  EXPECT_EQ(grains_needed({10.0, 7.0, 11.0}, 3, 15.0), 6.0);  // 5.33, whole grains
-  EXPECT_TRUE(std::isnan(grains_needed({0.0, -1.0, 1.0}, 50, 5.0)));
 }
 
 TEST(RankCorrelation, HasTheIntervalOfBonettAndWright) {

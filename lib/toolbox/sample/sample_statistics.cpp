@@ -350,13 +350,6 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
   return statistics;
 }
 
-double grains_needed(const Estimate& estimate, std::size_t grains, double percent) {
-  const double reach = 0.5 * (estimate.upper - estimate.lower);
-  const double wanted = 0.01 * percent * std::abs(estimate.value);
-  if (!std::isfinite(reach) || !(wanted > 0.0)) return no_statistic;
-  return std::ceil(static_cast<double>(grains) * reach * reach / (wanted * wanted));
-}
-
 std::vector<VoxelTrend> voxel_trends(const GrainSample& sample) {
   std::vector<VoxelTrend> trends;
   if (sample.voxels_across.size() == 0) return trends;

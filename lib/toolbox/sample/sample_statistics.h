@@ -66,11 +66,6 @@ struct SampleStatistics {
 SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& options,
                                 const Execution& execution);
 
-/// Returns the number of grains for which the 95 % interval of an estimate would extend `percent` %
-/// of its value to either side, because intervals shrink with the square root of the number. NaN if
-/// the estimate has no interval or is 0.
-double grains_needed(const Estimate& estimate, std::size_t grains, double percent);
-
 /// Computes the rank correlation of the rows that have both numbers. NaN for fewer than four such
 /// rows, or if all numbers of one vector are equal.
 Estimate rank_correlation(const Eigen::VectorXd& one, const Eigen::VectorXd& other);
