@@ -2,6 +2,8 @@
 """Labels of an array of grey values: those of the program."""
 import os
 import subprocess
+import warnings
+import zlib
 
 import numpy as np
 import pytest
@@ -30,10 +32,13 @@ def test_segment_gives_the_labels_of_the_program(tmp_path, given, call, grains):
                    + call, cwd=tmp_path, check=True)
     with open(tmp_path / "labels.mha", "rb") as file:
         header, data = file.read().split(b"ElementDataFile = LOCAL\n", 1)
-    import zlib
     theirs = np.frombuffer(zlib.decompress(data), "<u2").reshape(scan.shape)
     assert b"MET_USHORT" in header
-    result = wscvt.segment(scan, (0.5, 0.5, 0.75), **given)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        result = wscvt.segment(scan, (0.5, 0.5, 0.75), **given)
+    # Three peaks are told as long as nobody has chosen.
+    assert any("3 peaks" in str(warning.message) for warning in told) == ("phases" not in given)
     np.testing.assert_array_equal(result["labels"], theirs)
     assert result["grains"] == result["labels"].max() == grains
     assert 60 < result["threshold"] < 230 and len(result["peaks"]) >= 2

@@ -442,6 +442,7 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   Segmentation result;
   result.not_scanned = material_count(outside);
   result.is_dark = options.dark;
+  result.is_chosen = options.threshold || options.phases;
   result.is_mask = range.are_two;
   result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
   result.voxels = voxels_of(geometry.counts);

@@ -67,6 +67,7 @@ struct Segmentation {
   bool is_mask = false;             ///< two values only: not smoothed, no threshold computed
   bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
   bool is_dark = false;             ///< as in the options
+  bool is_chosen = false;           ///< the options have a threshold or a number of phases
   double threshold = 0.0;           ///< as used
   std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
   int medians = 1;                  ///< so often the grey values were smoothed; more for noise
