@@ -133,14 +133,9 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.msh", walls_msh(result, labels));
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
-  std::vector<Sentence> warnings;
-  if (result.intersections > 0) {
-    warnings.push_back(std::to_string(result.intersections) +
-                       " pairs of triangles intersect, in gaps or parts about a voxel wide. Give "
-                       "another " +
-                       mention(edge_length_option) + ", or segment with wider gaps.");
-  }
-  work.print(warnings, conforming_lines(result));
+  const Sentence warning = intersection_warning(result, labels);
+  work.print(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning},
+             conforming_lines(result));
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 

@@ -174,28 +174,49 @@ std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& 
 
 std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
                            const std::vector<std::string>& files) {
-  std::string text = csv_record({"grain", "nodes", "triangles", "voxels", "voxel_volume", "volume",
-                                 "contacts", "pieces", "left_out", "file"});
+  std::string text = csv_record({"grain", "nodes", "triangles", "voxels", "gained", "voxel_volume",
+                                 "volume", "contacts", "pieces", "left_out", "file"});
   for (std::size_t g = 0; g < grains.grains.size(); ++g) {
     const ConformingGrain& grain = grains.grains[g];
     text += csv_record({std::to_string(labels[g]), std::to_string(grain.nodes),
                         std::to_string(grain.triangles), std::to_string(grain.voxels),
-                        format_exact(grain.voxel_volume), format_exact(grain.volume),
-                        std::to_string(grain.contacts), std::to_string(grain.pieces),
-                        std::to_string(grain.left_out), files[g]});
+                        std::to_string(grain.gained), format_exact(grain.voxel_volume),
+                        format_exact(grain.volume), std::to_string(grain.contacts),
+                        std::to_string(grain.pieces), std::to_string(grain.left_out), files[g]});
   }
   return text;
 }
 
 std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
+  std::int64_t voxels = 0;
+  for (const ConformingGrain& grain : grains.grains) voxels += grain.voxels;
+  const double share = static_cast<double>(grains.gained_voxels) / static_cast<double>(voxels);
   return {std::to_string(grains.grains.size()) + " grains with " +
               std::to_string(grains.walls.size()) +
               " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
               std::to_string(grains.triangles.size()) + " triangles",
           "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
               format_percent(grains.edge_variation) + " of it",
+          "Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
+              format_percent(share) + " of the grains, went to the grains beside them",
           "Volumes: exact within " + format_number(100.0 * grains.volume_error, 2) + " %",
           "Intersecting pairs of triangles: " + std::to_string(grains.intersections)};
+}
+
+Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels) {
+  if (grains.intersections == 0) return {};
+  constexpr std::size_t most_named = 10;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    if (!grains.grains[g].intersects || ++count > most_named) continue;
+    names += (names.empty() ? "" : ", ") + std::to_string(labels[g]);
+  }
+  if (count > most_named) names += " and " + std::to_string(count - most_named) + " more";
+  return std::to_string(grains.intersections) +
+         " pairs of triangles intersect, in thin parts of the grains " + names +
+         ". Give a smaller " + mention(edge_length_option) +
+         ", or segment the volume with less noise.";
 }
 
 }  // namespace wscvt

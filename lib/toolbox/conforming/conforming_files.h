@@ -29,12 +29,17 @@ std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& 
 /// normal (nx, ny, nz) from first to second, triangles.
 std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& labels);
 
-/// Returns CSV, a row per grain: grain (its label), nodes, triangles, voxels, voxel_volume, volume,
-/// contacts, pieces, left_out (voxels of smaller pieces), file.
+/// Returns CSV, a row per grain: grain (its label), nodes, triangles, voxels, gained (of them, from
+/// thin gaps and thin parts of others, less its own), voxel_volume, volume, contacts, pieces,
+/// left_out (voxels of smaller pieces), file.
 std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
                            const std::vector<std::string>& files);
 
 /// Returns lines for a log.
 std::vector<std::string> conforming_lines(const ConformingGrains& grains);
+
+/// Returns a sentence for the user about triangles that intersect, with the grains that have them;
+/// empty if none do.
+Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels);
 
 }  // namespace wscvt

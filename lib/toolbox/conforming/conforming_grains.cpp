@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "toolbox/conforming/wall_remesh.h"
+#include "toolbox/conforming/wall_repair.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
@@ -15,7 +16,6 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 
@@ -30,15 +30,6 @@ constexpr std::int64_t fewest_voxels = 64;  ///< a cube of 4; smoothing halves s
 /// Returns the longest edge of a voxel.
 double longest_voxel_edge(const VolumeGeometry& geometry) {
   return geometry.axes.colwise().norm().maxCoeff();
-}
-
-IndexedMesh all_triangles(const std::vector<Vector3>& points,
-                          const std::vector<WallTriangle>& triangles) {
-  IndexedMesh mesh;
-  mesh.points = points;
-  mesh.triangles.reserve(triangles.size());
-  for (const WallTriangle& t : triangles) mesh.triangles.push_back(t.corners);
-  return mesh;
 }
 
 void count_nodes(ConformingGrains& result) {
@@ -108,81 +99,6 @@ void measure_edges(ConformingGrains& result) {
       result.mean_edge;
 }
 
-/// Moves the nodes of intersecting triangles: sheets of free surface away from each other, by
-/// `step`, others to the middle of their neighbours.
-void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double step) {
-  std::vector<Vector3> shift(mesh.points.size(), Vector3::Zero());
-  std::vector<char> is_knot(mesh.points.size(), 0);
-  for (const auto& [first, second] : pairs) {
-    const WallTriangle& a = mesh.triangles[index(first)];
-    const WallTriangle& b = mesh.triangles[index(second)];
-    const bool are_free = a.outer < 0 && b.outer < 0;
-    const bool touch = std::any_of(a.corners.begin(), a.corners.end(), [&](std::int32_t corner) {
-      return std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end();
-    });
-    for (const WallTriangle* t : {&a, &b}) {
-      const Vector3 normal =
-          doubled_area_normal(mesh.points[index(t->corners[0])], mesh.points[index(t->corners[1])],
-                              mesh.points[index(t->corners[2])])
-              .normalized();
-      for (const std::int32_t corner : t->corners) {
-        if (are_free && !touch) {
-          shift[index(corner)] += a.inner == b.inner ? normal : Vector3(-normal);
-        } else {
-          is_knot[index(corner)] = 1;
-        }
-      }
-    }
-  }
-  const std::vector<Vector3> before = mesh.points;
-  for (std::size_t v = 0; v < before.size(); ++v) {
-    if (is_knot[v] != 0) {
-      Vector3 sum = Vector3::Zero();
-      double count = 0.0;
-      const auto add = [&](std::int32_t other) {
-        sum += before[index(other)];
-        count += 1.0;
-      };
-      if (mesh.places[v] == WallPlace::Line) {
-        for (const std::int32_t end : mesh.line_neighbours(static_cast<std::int32_t>(v))) add(end);
-      } else {
-        mesh.visit_triangles(static_cast<std::int32_t>(v), [&](std::size_t t) {
-          for (const std::int32_t corner : mesh.triangles[t].corners) {
-            if (index(corner) != v) add(corner);
-          }
-        });
-      }
-      if (count > 0.0) mesh.points[v] += 0.5 * (sum / count - before[v]);
-    } else if (shift[v].squaredNorm() > 0.0) {
-      mesh.points[v] += step * shift[v].normalized();
-    }
-  }
-}
-
-/// Restores the volumes and parts intersecting triangles, until none is left or there are no fewer.
-void finish(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
-            ConformingGrains& result, const Execution& execution) {
-  constexpr int most_rounds = 30;
-  constexpr int patience = 5;   // rounds without fewer pairs; a volume of 400^3 takes 15 s a round
-  constexpr double step = 0.1;  // of a voxel; wide against rounding, small against a gap
-  result.triangles = mesh.triangles;
-  int since = 0;
-  for (int round = 0; round <= most_rounds && since <= patience; ++round, ++since) {
-    execution.report(static_cast<double>(round) / (most_rounds + 1), "Parting triangles");
-    const double error = restore_volumes(mesh.points, mesh.triangles, volumes);
-    const std::vector<TrianglePair> pairs =
-        self_intersections(all_triangles(mesh.points, mesh.triangles), execution.part(0.0, 0.0));
-    if (round == 0 || pairs.size() < result.intersections) {
-      result.points = mesh.points;
-      result.intersections = pairs.size();
-      result.volume_error = error;
-      since = 0;
-    }
-    if (pairs.empty()) return;
-    part_pairs(mesh, pairs, step * voxel);
-  }
-}
-
 /// Returns the closed mesh of a grain. `by_grain`: the triangles of each.
 IndexedMesh mesh_of(const ConformingGrains& grains, const Groups& by_grain, std::size_t grain) {
   IndexedMesh mesh;
@@ -206,6 +122,21 @@ IndexedMesh mesh_of(const ConformingGrains& grains, const Groups& by_grain, std:
   return mesh;
 }
 
+/// Makes all grains well-composed and of one piece. Returns the number of changed voxels.
+std::size_t compose(GrainVoxels& voxels, std::size_t grains) {
+  constexpr int most_rounds = 10;
+  std::size_t changed = 0;
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::size_t now = make_well_composed(voxels);
+    if (now == 0) return changed;
+    changed += now;
+    keep_largest_pieces(voxels, grains);
+  }
+  throw Error(ErrorCode::NumericalFailure,
+              "The grains fall into pieces again and again when they are made well-composed. "
+              "Segment the volume with less noise.");
+}
+
 }  // namespace
 
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
@@ -221,38 +152,53 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   }
   execution.report(0.0, "Finding the pieces of the grains");
   const std::vector<GrainPieces> pieces = keep_largest_pieces(voxels, grains);
+  remove_thin_parts(voxels);
+  const std::vector<GrainPieces> cleaned = keep_largest_pieces(voxels, grains);
   ConformingGrains result;
   result.grains.resize(grains);
   std::vector<double> volumes(grains);
   for (std::size_t g = 0; g < grains; ++g) {
     if (pieces[g].voxels == 0) refuse("Grain " + std::to_string(g) + " has no voxel.");
-    if (pieces[g].voxels < fewest_voxels) {
-      refuse("A grain has only " + std::to_string(pieces[g].voxels) +
+    ConformingGrain& grain = result.grains[g];
+    grain.voxels = cleaned[g].voxels;
+    if (grain.voxels < fewest_voxels) {
+      refuse("A grain has only " + std::to_string(grain.voxels) +
              " voxels. Its wall cannot be smoothed. Leave out grains of less than " +
              std::to_string(fewest_voxels) + " voxels by " + mention(smallest_option) + ".");
     }
-    ConformingGrain& grain = result.grains[g];
-    grain.voxels = pieces[g].voxels;
+    grain.gained = cleaned[g].voxels - pieces[g].voxels;
     grain.pieces = pieces[g].pieces;
     grain.left_out = pieces[g].left_out;
     grain.pore_voxels = pieces[g].pore_voxels;
-    grain.voxel_volume = static_cast<double>(pieces[g].voxels) * geometry.voxel_volume();
-    volumes[g] = grain.voxel_volume;
+    volumes[g] = static_cast<double>(grain.voxels) * geometry.voxel_volume();
+    grain.voxel_volume = volumes[g];
+    result.gained_voxels += grain.gained;
   }
-  result.changed_voxels = make_well_composed(voxels);
-  if (result.changed_voxels > 0) keep_largest_pieces(voxels, grains);
+  result.changed_voxels = compose(voxels, grains);
   execution.report(0.1, "Finding the walls");
   VoxelWalls walls = voxel_walls(voxels);
   voxels = GrainVoxels({0, 0, 0});
-  const DenseWalls dense(std::move(walls), options.smoothing, geometry, volumes,
-                         execution.part(0.15, 0.4));
+  const DenseWalls dense(std::move(walls), options.smoothing, geometry, execution.part(0.15, 0.4));
   std::vector<double> edges;
   for (const double volume : volumes) {
     edges.push_back(std::min(edge, portable::cbrt(volume) / edges_across));
   }
   WallRemesher remesher(dense, std::move(edges));
   remesher.run(voxel, execution.part(0.4, 0.85));
-  finish(remesher.mesh(), volumes, voxel, result, execution.part(0.85, 1.0));
+  const FinishedWalls finished =
+      finish_walls(remesher.mesh(), volumes, voxel, execution.part(0.85, 1.0));
+  result.points = std::move(remesher.mesh().points);
+  result.triangles = std::move(remesher.mesh().triangles);
+  result.intersections = finished.pairs.size();
+  for (const auto& [a, b] : finished.pairs) {
+    for (const std::int32_t t : {a, b}) {
+      const WallTriangle& triangle = result.triangles[index(t)];
+      for (const std::int32_t grain : {triangle.inner, triangle.outer}) {
+        if (grain >= 0) result.grains[index(grain)].intersects = true;
+      }
+    }
+  }
+  result.volume_error = finished.volume_error;
   const std::vector<double> got = wall_volumes(result.points, result.triangles, grains);
   for (std::size_t g = 0; g < grains; ++g) result.grains[g].volume = got[g];
   count_nodes(result);

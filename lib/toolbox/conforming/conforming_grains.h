@@ -28,7 +28,8 @@ inline constexpr NumberOption<double> edge_length_option = {
 
 /// A grain among others.
 struct ConformingGrain {
-  std::int64_t voxels = 0;       ///< of its largest piece, pores filled
+  std::int64_t voxels = 0;       ///< of its largest piece, pores filled, thin parts removed
+  std::int64_t gained = 0;       ///< of them from thin gaps and thin parts of others, less its own
   std::size_t pieces = 0;        ///< of the label
   std::int64_t left_out = 0;     ///< voxels of the other pieces
   std::int64_t pore_voxels = 0;  ///< that were filled
@@ -37,6 +38,7 @@ struct ConformingGrain {
   std::size_t nodes = 0;
   std::size_t triangles = 0;
   std::size_t contacts = 0;  ///< grains with a common wall
+  bool intersects = false;   ///< a triangle of its walls intersects another one
 };
 
 /// A wall between two grains, which may be several patches.
@@ -56,6 +58,7 @@ struct ConformingGrains {
   std::vector<WallTriangle> triangles;  ///< each once
   std::vector<ConformingGrain> grains;
   std::vector<ConformingWall> walls;  ///< between grains; by first, then second
+  std::int64_t gained_voxels = 0;     ///< from thin gaps, of all grains
   std::size_t changed_voxels = 0;     ///< so that no grain touches itself in an edge or corner
   std::size_t intersections = 0;      ///< pairs of triangles that are left
   double mean_edge = 0.0;             ///< length
@@ -65,13 +68,16 @@ struct ConformingGrains {
 
 /// Remeshes all grains of a volume at once. `voxels`: grains are numbered from 0; the outermost
 /// voxels are background. `grains`: their number. A grain's largest piece is used and its pores are
-/// filled. Each grain becomes closed, manifold and outward, and has the volume of its voxels. Holes
-/// that several grains enclose together stay.
+/// filled, also pores of less than 64 voxels that several grains enclose. Gaps and parts a voxel
+/// wide between grains are noise of a segmentation that no mesh of longer edges can follow: they go
+/// to the grain beside them, see remove_thin_parts. Each grain becomes closed, manifold and
+/// outward, and has the volume of its voxels.
 ///
 /// The edges are even along walls and lines. Their mean is the wanted length if the grains are
 /// large against it; a grain whose volume is that of a cube of less than two edges along a side has
-/// shorter ones. Nodes of triangles that would intersect are moved, up to 30 times; `intersections`
-/// says what is left. The result does not depend on the number of threads. Throws Error:
+/// shorter ones. Triangles that intersect are parted as finish_walls says; `intersections` counts
+/// those that are left, usually at contacts of few faces of voxels. The result does not depend on
+/// the number of threads. Throws Error:
 /// InvalidInput without grains, for a grain without voxels, and for an edge length below a voxel's;
 /// NumericalFailure as make_well_composed does; Cancelled.
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,

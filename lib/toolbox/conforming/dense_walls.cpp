@@ -141,7 +141,7 @@ std::vector<double> wall_volumes(const std::vector<Vector3>& points,
 }
 
 double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
-                       const std::vector<double>& volumes) {
+                       const std::vector<double>& volumes, const std::vector<double>& shares) {
   const Groups at = corners_at(triangles, points.size());
   std::vector<VolumeGradient> list;
   const auto gradients_at = [&](std::size_t v) {
@@ -163,7 +163,6 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
     std::vector<double> missing(volumes.size(), 0.0);
     worst = 0.0;
     for (std::size_t g = 0; g < volumes.size(); ++g) {
-      if (!(volumes[g] > 0.0)) continue;
       missing[g] = volumes[g] - now[g];
       worst = std::max(worst, std::abs(missing[g]) / volumes[g]);
     }
@@ -174,14 +173,14 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
       if (!(area > 0.0)) continue;
       for (const VolumeGradient& a : list) {
         for (const VolumeGradient& b : list) {
-          matrix.add(a.grain, b.grain, a.gradient.dot(b.gradient) / area);
+          matrix.add(a.grain, b.grain, shares[v] * a.gradient.dot(b.gradient) / area);
         }
       }
     }
     std::vector<double> lengths = matrix.solve(missing);
     for (std::size_t g = 0; g < lengths.size(); ++g) {
       // A grain that is nearly flat asks for long moves, which turn its neighbours inside out.
-      const double most = 0.1 * portable::cbrt(std::max(volumes[g], 0.0));
+      const double most = 0.1 * portable::cbrt(volumes[g]);
       lengths[g] = std::clamp(lengths[g], -most, most);
     }
     std::vector<Vector3> moved = points;
@@ -189,7 +188,7 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
       const double area = gradients_at(v);
       if (!(area > 0.0)) continue;
       for (const VolumeGradient& one : list) {
-        moved[v] += lengths[index(one.grain)] / area * one.gradient;
+        moved[v] += shares[v] * lengths[index(one.grain)] / area * one.gradient;
       }
     }
     points = std::move(moved);
@@ -198,7 +197,7 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
 }
 
 DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
-                       const std::vector<double>& volumes, const Execution& execution) {
+                       const Execution& execution) {
   {
     const Groups quads_at = counting_sort(
         walls.quads.size(), walls.corners.size(), [&](std::size_t q, const auto& visit) {
@@ -223,9 +222,16 @@ DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geome
     triangles_.push_back({{c[0], c[2], c[3]}, quad.inner, quad.outer});
   }
   walls = {};
-  execution.report(0.8, "Restoring the volumes");
-  restore_volumes(points_, triangles_, volumes);
   triangles_at_ = corners_at(triangles_, points_.size());
+  normals_.resize(points_.size());
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    Vector3 sum = Vector3::Zero();
+    for (const std::int32_t* t = triangles_at_.begin(v); t != triangles_at_.end(v); ++t) {
+      const auto& [a, b, c] = triangles_[index(*t)].corners;
+      sum += doubled_area_normal(points_[index(a)], points_[index(b)], points_[index(c)]);
+    }
+    normals_[v] = sum.normalized().cast<float>();
+  }
 }
 
 void DenseWalls::find_places(const std::vector<WallQuad>& quads, const Groups& quads_at) {
@@ -247,6 +253,21 @@ void DenseWalls::find_places(const std::vector<WallQuad>& quads, const Groups& q
   }
 }
 
+bool DenseWalls::is_on_short_loop(std::size_t v) const {
+  constexpr int most_steps = 16;
+  if (places_[v] != WallPlace::Line) return false;
+  auto before = static_cast<std::int32_t>(v);
+  std::int32_t at = line_neighbours_[index(line_of_[v])][0];
+  for (int step = 1; step < most_steps && places_[index(at)] == WallPlace::Line; ++step) {
+    const std::vector<std::int32_t>& ends = line_neighbours_[index(line_of_[index(at)])];
+    const std::int32_t next = ends[0] == before ? ends[1] : ends[0];
+    if (index(next) == v) return true;
+    before = at;
+    at = next;
+  }
+  return false;
+}
+
 void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int passes,
                         const Execution& execution) {
   // Taubin's pass band of 0.1, as 1 / step + 1 / back = 0.1: slower variations stay.
@@ -257,6 +278,8 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
   for (const VoxelCounts& c : walls.corners) corners.emplace_back(c[0], c[1], c[2]);
   points_ = corners;
   std::vector<Vector3> moved(corners.size());
+  std::vector<bool> is_short(corners.size());
+  for (std::size_t v = 0; v < corners.size(); ++v) is_short[v] = is_on_short_loop(v);
   const auto mean_at = [&](std::size_t v) {
     Vector3 sum = Vector3::Zero();
     if (line_of_[v] >= 0) {
@@ -275,13 +298,14 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
     return Vector3(sum / count);
   };
   for (int pass = 0; pass < passes; ++pass) {
-    execution.report(0.8 * pass / passes, "Smoothing the walls");
+    execution.report(static_cast<double>(pass) / passes, "Smoothing the walls");
     for (const double factor : {step, back}) {
       execution.parallel_for(
           corners.size(), smoothing_block, [&](std::size_t begin, std::size_t end) {
             for (std::size_t v = begin; v < end; ++v) {
-              // A line has larger steps: it jumps where the steps of its walls meet.
-              const double most = places_[v] == WallPlace::Line ? 0.75 : 0.5;
+              // A line has larger steps: it jumps where the steps of its walls meet. The line about
+              // a wall of few faces would shrink to a point.
+              const double most = places_[v] != WallPlace::Line ? 0.5 : is_short[v] ? 0.2 : 0.75;
               const Vector3 to = points_[v] + factor * (mean_at(v) - points_[v]) - corners[v];
               moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
             }

@@ -30,14 +30,15 @@ struct WallPoint {
 class DenseWalls {
  public:
   /// Smooths the faces of voxels as smoothed_surface does, each kind of place for itself: walls
-  /// within their surface, lines along themselves. Then all grains get their volumes, see
-  /// restore_volumes. `volumes`: of each grain, in the coordinates of `geometry`.
+  /// within their surface, lines along themselves.
   DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
-             const std::vector<double>& volumes, const Execution& execution);
+             const Execution& execution);
 
   const std::vector<Vector3>& points() const { return points_; }
   const std::vector<WallTriangle>& triangles() const { return triangles_; }
   const std::vector<WallPlace>& places() const { return places_; }
+  /// Of the vertices within walls, towards `outer`; length 1.
+  const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
 
   /// Returns a place of the wall between two grains near `target`: goes from vertex to vertex
   /// towards it, from a vertex of the wall on.
@@ -49,6 +50,7 @@ class DenseWalls {
 
  private:
   void find_places(const std::vector<WallQuad>& quads, const Groups& quads_at);
+  bool is_on_short_loop(std::size_t v) const;
   void smooth(const VoxelWalls& walls, const Groups& quads_at, int passes,
               const Execution& execution);
 
@@ -56,16 +58,16 @@ class DenseWalls {
   std::vector<WallTriangle> triangles_;
   Groups triangles_at_;  ///< each vertex
   std::vector<WallPlace> places_;
+  std::vector<Eigen::Vector3f> normals_;
   std::vector<std::int32_t> line_of_;                       ///< row of line_neighbours_, or -1
   std::vector<std::vector<std::int32_t>> line_neighbours_;  ///< along lines, of lines and points
 };
 
 /// Moves vertices so that every grain has its volume: along the walls' normals, all vertices of a
-/// grain's side by the same length, the smallest moves for it (least squares, weighted by area).
-/// Returns the largest difference that is left, relative. Volumes that are not above 0 are not
-/// restored.
+/// grain's side by the same length times the vertex' share, above 0 (least squares, weighted by
+/// area). Returns the largest difference that is left, relative.
 double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
-                       const std::vector<double>& volumes);
+                       const std::vector<double>& volumes, const std::vector<double>& shares);
 
 /// Returns the volume of each grain.
 std::vector<double> wall_volumes(const std::vector<Vector3>& points,

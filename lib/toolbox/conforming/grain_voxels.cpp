@@ -11,6 +11,8 @@ namespace wscvt {
 
 namespace {
 
+constexpr std::int64_t smallest_pore = 64;  ///< voxels; smaller ones have no even surface
+
 constexpr std::int32_t beyond = -2;  ///< the outermost voxels, while pieces are searched
 
 /// Searches pieces of equal voxels, connected by faces, row by row.
@@ -23,7 +25,8 @@ class PieceSearch {
     std::size_t start = 0;
     std::int64_t voxels = 0;
     bool has_rim = false;         ///< reaches the outermost voxels
-    std::int32_t neighbour = -1;  ///< the grain that it touches; -1: none or several
+    std::int32_t touched = -1;    ///< one of the grains that it touches; -1: none
+    std::int32_t neighbour = -1;  ///< the only one; -1: none or several
   };
 
   bool was_seen(std::size_t place) const { return seen_[place]; }
@@ -40,8 +43,8 @@ class PieceSearch {
     const auto meet = [&](std::int32_t other) {
       if (other == beyond) piece.has_rim = true;
       if (other < 0 || other == value) return;
-      if (piece.neighbour >= 0 && piece.neighbour != other) has_several = true;
-      piece.neighbour = other;
+      if (piece.touched >= 0 && piece.touched != other) has_several = true;
+      piece.touched = other;
     };
     open_.assign(1, start);
     while (!open_.empty()) {
@@ -62,7 +65,7 @@ class PieceSearch {
         look_beside(begin + step, end + step, value, meet);
       }
     }
-    if (has_several) piece.neighbour = -1;
+    if (!has_several) piece.neighbour = piece.touched;
     return piece;
   }
 
@@ -118,7 +121,7 @@ int faults_of(const Block& b) {
     const auto count = [&](std::int32_t g) { return std::count(b.begin(), b.end(), g); };
     const std::int32_t g = b[k];
     if (g >= 0 && g == b[7 - k] && count(g) == 2) ++faults;
-    const std::int32_t other = b[(k + 1) % 8];
+    const std::int32_t other = b[(k + 1) % 4];
     if (other >= 0 && b[k] != other && b[7 - k] != other && count(other) == 6) ++faults;
   }
   return faults;
@@ -246,6 +249,66 @@ class Composer {
   std::vector<std::size_t> open_;
 };
 
+/// Returns the voxels of background that are in a cube of eight.
+std::vector<bool> wide_gaps(const GrainVoxels& voxels) {
+  const std::array<std::size_t, 3> steps = voxels.steps();
+  std::array<std::size_t, 8> offsets{};
+  for (std::size_t k = 0; k < 8; ++k) {
+    offsets[k] = (k & 1U) * steps[0] + (k >> 1U & 1U) * steps[1] + (k >> 2U) * steps[2];
+  }
+  std::vector<bool> is_wide(voxels.grain.size(), false);
+  for (std::size_t base = 0; base + offsets[7] < voxels.grain.size(); ++base) {
+    if (std::any_of(offsets.begin(), offsets.end(),
+                    [&](std::size_t offset) { return voxels.grain[base + offset] >= 0; })) {
+      continue;
+    }
+    for (const std::size_t offset : offsets) is_wide[base + offset] = true;
+  }
+  return is_wide;
+}
+
+/// Calls visit(place) for the 27 voxels about one that is not outermost, itself included.
+template <class Visit>
+void visit_about(std::size_t voxel, const std::array<std::size_t, 3>& steps, const Visit& visit) {
+  for (std::size_t z = voxel - steps[2]; z <= voxel + steps[2]; z += steps[2]) {
+    for (std::size_t y = z - steps[1]; y <= z + steps[1]; y += steps[1]) {
+      for (std::size_t x = y - 1; x <= y + 1; ++x) visit(x);
+    }
+  }
+}
+
+/// Whether a voxel of a grain has other grains before and behind it along an axis.
+bool is_between(const GrainVoxels& voxels, std::size_t voxel,
+                const std::array<std::size_t, 3>& steps) {
+  const std::int32_t own = voxels.grain[voxel];
+  return std::any_of(steps.begin(), steps.end(), [&](std::size_t step) {
+    const std::int32_t low = voxels.grain[voxel - step];
+    const std::int32_t high = voxels.grain[voxel + step];
+    return low >= 0 && high >= 0 && low != own && high != own;
+  });
+}
+
+/// Returns the other grain with most voxels about a voxel, of those that have a face with it; of
+/// equal ones the first; -1: none.
+std::int32_t other_grain(const GrainVoxels& voxels, std::size_t voxel,
+                         const std::array<std::size_t, 3>& steps) {
+  std::array<std::int32_t, 27> about{};
+  std::size_t count = 0;
+  visit_about(voxel, steps, [&](std::size_t x) { about[count++] = voxels.grain[x]; });
+  std::int32_t best = -1;
+  std::ptrdiff_t most = 0;
+  for (const std::size_t step : steps) {
+    for (const std::int32_t grain : {voxels.grain[voxel - step], voxels.grain[voxel + step]}) {
+      if (grain < 0 || grain == voxels.grain[voxel]) continue;
+      const std::ptrdiff_t number = std::count(about.begin(), about.end(), grain);
+      if (number < most || (number == most && grain >= best)) continue;
+      most = number;
+      best = grain;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 GrainVoxels::GrainVoxels(const VoxelCounts& size)
@@ -286,8 +349,10 @@ std::vector<GrainPieces> keep_largest_pieces(GrainVoxels& voxels, std::size_t gr
   std::vector<PieceSearch::Piece> pores;
   for (std::size_t k = 0; k < voxels.grain.size(); ++k) {
     if (voxels.grain[k] != -1 || search.was_seen(k)) continue;
-    const PieceSearch::Piece piece = search.find(k, no_visit);
-    if (!piece.has_rim && piece.neighbour >= 0) pores.push_back(piece);
+    PieceSearch::Piece piece = search.find(k, no_visit);
+    if (piece.has_rim) continue;
+    if (piece.neighbour < 0 && piece.voxels < smallest_pore) piece.neighbour = piece.touched;
+    if (piece.neighbour >= 0) pores.push_back(piece);
   }
   search.forget();
   for (const PieceSearch::Piece& pore : pores) {
@@ -297,6 +362,39 @@ std::vector<GrainPieces> keep_largest_pieces(GrainVoxels& voxels, std::size_t gr
   }
   set_rim(voxels, -1);
   return rows;
+}
+
+void remove_thin_parts(GrainVoxels& voxels) {
+  constexpr int most_passes = 10;
+  const std::array<std::size_t, 3> steps = voxels.steps();
+  const std::vector<bool> is_wide = wide_gaps(voxels);
+  const auto is_near_wide = [&](std::size_t voxel) {
+    return is_wide[voxel] || std::any_of(steps.begin(), steps.end(), [&](std::size_t step) {
+             return is_wide[voxel - step] || is_wide[voxel + step];
+           });
+  };
+  std::vector<std::pair<std::size_t, std::int32_t>> changes;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    changes.clear();
+    for (std::int32_t z = 1; z + 1 < voxels.counts[2]; ++z) {
+      for (std::int32_t y = 1; y + 1 < voxels.counts[1]; ++y) {
+        const std::size_t row = voxels.place(0, y, z);
+        for (std::size_t k = row + 1; k + 1 < row + steps[1]; ++k) {
+          const std::int32_t own = voxels.grain[k];
+          if (std::all_of(steps.begin(), steps.end(), [&](std::size_t step) {
+                return voxels.grain[k - step] == own && voxels.grain[k + step] == own;
+              })) {
+            continue;
+          }
+          if (own < 0 ? is_near_wide(k) : !is_between(voxels, k, steps)) continue;
+          const std::int32_t grain = other_grain(voxels, k, steps);
+          if (grain >= 0) changes.emplace_back(k, grain);
+        }
+      }
+    }
+    for (const auto& [voxel, grain] : changes) voxels.grain[voxel] = grain;
+    if (changes.empty()) return;
+  }
 }
 
 std::size_t make_well_composed(GrainVoxels& voxels) { return Composer(voxels).run(); }

@@ -39,6 +39,12 @@ struct GrainPieces {
 /// grain encloses. Returns a row per grain.
 std::vector<GrainPieces> keep_largest_pieces(GrainVoxels& voxels, std::size_t grains);
 
+/// Removes parts that are one voxel thick between grains: gaps between two grains, notches, and
+/// thin ends of a grain between others. A voxel that differs from the grains before and behind it
+/// along an axis goes to the one with more voxels about it, of equal ones to the first. Up to ten
+/// passes.
+void remove_thin_parts(GrainVoxels& voxels);
+
 /// Changes voxels until every grain is well-composed: where two of its voxels touch in an edge or a
 /// corner, a chain of faces connects them there, and the same holds for what is outside it. Then
 /// the boundary of every grain is a closed manifold (Latecki 1997, 3D well-composed pictures).

@@ -10,7 +10,7 @@ namespace wscvt {
 
 namespace {
 
-bool has(const std::vector<std::int32_t>& list, std::int32_t v) {
+bool has(const WallVertices& list, std::int32_t v) {
   return std::find(list.begin(), list.end(), v) != list.end();
 }
 
@@ -29,7 +29,7 @@ double evenness(const Vector3& a, const Vector3& b, const Vector3& c) {
 }  // namespace
 
 WallMesh::WallMesh(const DenseWalls& dense)
-    : points(dense.points()), triangles(dense.triangles()), places(dense.places()) {
+    : points(dense.points()), triangles(dense.triangles()), places(dense.places()), dense_(dense) {
   anchors.resize(points.size());
   for (std::size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<std::int32_t>(v);
   link();
@@ -66,21 +66,21 @@ std::size_t WallMesh::corner(std::size_t t, std::int32_t v) const {
   return c[0] == v ? 0 : c[1] == v ? 1 : c[2] == v ? 2 : 3;
 }
 
-std::vector<std::size_t> WallMesh::triangles_at(std::int32_t a, std::int32_t b) const {
-  std::vector<std::size_t> list;
+EdgeTriangles WallMesh::triangles_at(std::int32_t a, std::int32_t b) const {
+  EdgeTriangles list;
   visit_triangles(a, [&](std::size_t t) {
     if (corner(t, b) < 3) list.push_back(t);
   });
   return list;
 }
 
-bool WallMesh::is_line(const std::vector<std::size_t>& at_edge) const {
+bool WallMesh::is_line(const EdgeTriangles& at_edge) const {
   return at_edge.size() != 2 || !same_wall(triangles[at_edge[0]], triangles[at_edge[1]]);
 }
 
-std::vector<std::int32_t> WallMesh::line_neighbours(std::int32_t v) const {
-  std::vector<std::int32_t> seen;
-  std::vector<std::int32_t> found;
+WallVertices WallMesh::line_neighbours(std::int32_t v) const {
+  WallVertices seen;
+  WallVertices found;
   visit_triangles(v, [&](std::size_t t) {
     for (const std::int32_t other : triangles[t].corners) {
       if (other == v || places[index(other)] == WallPlace::Wall || has(seen, other)) continue;
@@ -92,8 +92,8 @@ std::vector<std::int32_t> WallMesh::line_neighbours(std::int32_t v) const {
 }
 
 bool WallMesh::keeps_links(std::int32_t gone, std::int32_t kept,
-                           const std::vector<std::size_t>& at_edge) const {
-  std::vector<std::int32_t> opposite;
+                           const EdgeTriangles& at_edge) const {
+  WallVertices opposite;
   for (const std::size_t t : at_edge) {
     for (const std::int32_t v : triangles[t].corners) {
       if (v == gone || v == kept) continue;
@@ -101,7 +101,7 @@ bool WallMesh::keeps_links(std::int32_t gone, std::int32_t kept,
       opposite.push_back(v);
     }
   }
-  std::vector<std::int32_t> about;
+  WallVertices about;
   visit_triangles(gone, [&](std::size_t t) {
     for (const std::int32_t v : triangles[t].corners) {
       if (v != gone && !has(about, v)) about.push_back(v);
@@ -129,11 +129,39 @@ bool WallMesh::keeps_links(std::int32_t gone, std::int32_t kept,
   return keeps;
 }
 
-bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, const Vector3& position,
-                           double longest) const {
-  // A triangle may turn by 60 degrees, and its shape may not get worse than a third of even.
-  constexpr double least_cosine = 0.5;
+double WallMesh::agreement(const Triangle& corners, const Vector3& normal) const {
+  constexpr double unknown = 2.0;
+  double least = unknown;
+  const double length = normal.norm();
+  for (const std::int32_t v : corners) {
+    if (places[index(v)] != WallPlace::Wall || anchors[index(v)] < 0) continue;
+    const Vector3 outward = dense_.normals()[index(anchors[index(v)])].cast<double>();
+    least = std::min(least, length > 0.0 ? normal.dot(outward) / length : -1.0);
+  }
+  return least;
+}
+
+bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::array<Vector3, 3>& x,
+                          double turn) const {
+  constexpr double least_agreement = 0.3;
+  const Triangle& now = triangles[t].corners;
+  const Vector3 before =
+      doubled_area_normal(points[index(now[0])], points[index(now[1])], points[index(now[2])]);
+  const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
+  const double shape = evenness(x[0], x[1], x[2]);
   constexpr double least_evenness = 0.33;
+  if (shape < least_evenness &&
+      shape < evenness(points[index(now[0])], points[index(now[1])], points[index(now[2])])) {
+    return false;
+  }
+  const double cosine = agreement(corners, after);
+  if (cosine > 1.5) return after.dot(before) > turn * after.norm() * before.norm();
+  return cosine > least_agreement || cosine > agreement(now, before);
+}
+
+bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
+                           const Vector3& position, double longest) const {
+  constexpr double least_cosine = 0.5;
   bool keeps = true;
   visit_triangles(moved, [&](std::size_t t) {
     if (!keeps || corner(t, other) < 3) return;
@@ -147,8 +175,13 @@ bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, const Vector3
     const Vector3 before = doubled_area_normal(p, a, b);
     const Vector3 after = doubled_area_normal(position, a, b);
     if (!(after.dot(before) > least_cosine * after.norm() * before.norm())) keeps = false;
-    const double shape = evenness(position, a, b);
-    if (shape < least_evenness && shape < evenness(p, a, b)) keeps = false;
+    Triangle corners = c;
+    corners[k] = into;
+    std::array<Vector3, 3> x;
+    x[k] = position;
+    x[following(k)] = a;
+    x[preceding(k)] = b;
+    if (!may_become(t, corners, x, least_cosine)) keeps = false;
   });
   return keeps;
 }
@@ -157,7 +190,7 @@ bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& pos
                         double longest) {
   const WallPlace place = places[index(gone)];
   if (place == WallPlace::Point || place > places[index(kept)]) return false;
-  const std::vector<std::size_t> at_edge = triangles_at(gone, kept);
+  const EdgeTriangles at_edge = triangles_at(gone, kept);
   if (place == WallPlace::Line) {
     if (!is_line(at_edge)) return false;
     for (const std::int32_t end : line_neighbours(gone)) {
@@ -166,10 +199,11 @@ bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& pos
       }
     }
   }
-  if (!keeps_links(gone, kept, at_edge) || !keeps_shape(gone, kept, position, longest)) {
+  if (!keeps_links(gone, kept, at_edge) || !keeps_shape(gone, kept, kept, position, longest)) {
     return false;
   }
-  if (position != points[index(kept)] && !keeps_shape(kept, gone, position, longest)) return false;
+  if (position != points[index(kept)] && !keeps_shape(kept, gone, kept, position, longest))
+    return false;
   for (const std::size_t t : at_edge) kill(t);
   while (first_[index(gone)] >= 0) {
     const std::size_t c = index(first_[index(gone)]);
@@ -182,7 +216,7 @@ bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& pos
 }
 
 std::int32_t WallMesh::split(std::int32_t a, std::int32_t b) {
-  const std::vector<std::size_t> at_edge = triangles_at(a, b);
+  const EdgeTriangles at_edge = triangles_at(a, b);
   const bool is_on_line = is_line(at_edge);
   const auto middle = static_cast<std::int32_t>(points.size());
   const WallPlace place = is_on_line ? WallPlace::Line : WallPlace::Wall;
@@ -209,7 +243,7 @@ std::int32_t WallMesh::split(std::int32_t a, std::int32_t b) {
 }
 
 bool WallMesh::flip(std::int32_t a, std::int32_t b) {
-  const std::vector<std::size_t> at_edge = triangles_at(a, b);
+  const EdgeTriangles at_edge = triangles_at(a, b);
   if (is_line(at_edge)) return false;
   std::size_t s = at_edge[0];
   std::size_t t = at_edge[1];
@@ -235,6 +269,8 @@ bool WallMesh::flip(std::int32_t a, std::int32_t b) {
   // The new edge may bend by 60 degrees, or less than the old one.
   constexpr double least_cosine = 0.5;
   if (cosine(new_s, new_t) < std::min(least_cosine, cosine(old_s, old_t))) return false;
+  const double least = std::min({0.3, agreement({a, b, c}, old_s), agreement({b, a, d}, old_t)});
+  if (std::min(agreement({a, d, c}, new_s), agreement({d, b, c}, new_t)) < least) return false;
   const Vector3 mean = old_s + old_t;
   if (!(std::min(cosine(new_s, mean), cosine(new_t, mean)) > least_cosine)) return false;
   for (const std::size_t triangle : {s, t}) {

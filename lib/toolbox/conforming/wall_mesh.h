@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <vector>
 
@@ -10,10 +11,17 @@
 
 namespace wscvt {
 
+/// A few numbers; almost always without memory of their own.
+template <class Number>
+using FewOf = boost::container::small_vector<Number, 16>;
+using EdgeTriangles = FewOf<std::size_t>;
+using WallVertices = FewOf<std::int32_t>;
+
 /// The walls as triangles that can be changed. Every change keeps what touches what: each grain
 /// stays a closed manifold, and walls keep their lines and points.
 class WallMesh {
  public:
+  /// `dense` must outlive it.
   explicit WallMesh(const DenseWalls& dense);
 
   std::size_t vertex_count() const { return points.size(); }
@@ -26,13 +34,13 @@ class WallMesh {
   }
 
   /// Returns the triangles at an edge.
-  std::vector<std::size_t> triangles_at(std::int32_t a, std::int32_t b) const;
+  EdgeTriangles triangles_at(std::int32_t a, std::int32_t b) const;
 
   /// Returns the neighbours of a vertex that is on a line, along lines.
-  std::vector<std::int32_t> line_neighbours(std::int32_t v) const;
+  WallVertices line_neighbours(std::int32_t v) const;
 
   /// Whether the triangles of an edge make it part of a line.
-  bool is_line(const std::vector<std::size_t>& at_edge) const;
+  bool is_line(const EdgeTriangles& at_edge) const;
 
   /// Joins `gone` with `kept` at a position, if nothing but the triangles at their edge vanishes,
   /// no triangle turns over or becomes a sliver, and no edge becomes too long. Returns whether it
@@ -45,6 +53,12 @@ class WallMesh {
   /// Turns the edge of two triangles of one wall to their other corners, if their shape gets better
   /// and the surface does not bend more. Returns whether it did.
   bool flip(std::int32_t a, std::int32_t b);
+
+  /// Returns whether a triangle may become one with the corners at `x`: its normal agrees with the
+  /// dense walls at the corners within its wall, or does not agree less than now. Without such
+  /// corners it may turn by an angle of the cosine `turn`.
+  bool may_become(std::size_t t, const Triangle& corners, const std::array<Vector3, 3>& x,
+                  double turn) const;
 
   /// Removes dead triangles and vertices without triangles.
   void compact();
@@ -60,11 +74,13 @@ class WallMesh {
   void remove(std::size_t t, std::size_t k);
   void kill(std::size_t t);
   std::size_t corner(std::size_t t, std::int32_t v) const;
-  bool keeps_links(std::int32_t gone, std::int32_t kept,
-                   const std::vector<std::size_t>& at_edge) const;
-  bool keeps_shape(std::int32_t moved, std::int32_t other, const Vector3& position,
-                   double longest) const;
+  bool keeps_links(std::int32_t gone, std::int32_t kept, const EdgeTriangles& at_edge) const;
+  bool keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
+                   const Vector3& position, double longest) const;
 
+  double agreement(const Triangle& corners, const Vector3& normal) const;
+
+  const DenseWalls& dense_;
   std::vector<std::int32_t> first_;  ///< 3 t + k of a vertex; -1: none
   std::vector<std::int32_t> next_;   ///< of the same vertex, by 3 t + k
 };

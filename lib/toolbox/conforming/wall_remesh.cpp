@@ -27,10 +27,16 @@ double WallRemesher::edge_of(const WallTriangle& t) const {
   return factor_ * (t.outer < 0 ? inner : std::sqrt(inner * edges_[index(t.outer)]));
 }
 
-double WallRemesher::wanted(const std::vector<std::size_t>& at_edge) const {
+double WallRemesher::wanted(std::int32_t a, std::int32_t b) const {
   double sum = 0.0;
-  for (const std::size_t t : at_edge) sum += edge_of(mesh_.triangles[t]);
-  return sum / static_cast<double>(at_edge.size());
+  double count = 0.0;
+  mesh_.visit_triangles(a, [&](std::size_t t) {
+    const Triangle& c = mesh_.triangles[t].corners;
+    if (c[0] != b && c[1] != b && c[2] != b) return;
+    sum += edge_of(mesh_.triangles[t]);
+    count += 1.0;
+  });
+  return sum / count;
 }
 
 void WallRemesher::collapse_short(double most) {
@@ -40,7 +46,7 @@ void WallRemesher::collapse_short(double most) {
       std::int32_t b = mesh_.triangles[t].corners[following(k)];
       const double square = (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm();
       if (square > most * most) continue;
-      const double length = wanted(mesh_.triangles_at(a, b));
+      const double length = wanted(a, b);
       const double limit = std::min(most, shortest_share * length);
       if (square > limit * limit) continue;
       if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
@@ -71,7 +77,7 @@ void WallRemesher::split_long() {
       }
       const std::int32_t a = mesh_.triangles[t].corners[longest];
       const std::int32_t b = mesh_.triangles[t].corners[following(longest)];
-      const double limit = longest_share * wanted(mesh_.triangles_at(a, b));
+      const double limit = longest_share * wanted(a, b);
       if (square <= limit * limit) continue;
       mesh_.split(a, b);
       again = true;
@@ -80,13 +86,11 @@ void WallRemesher::split_long() {
 }
 
 void WallRemesher::flip_all() {
-  for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
-        const std::int32_t a = mesh_.triangles[t].corners[k];
-        const std::int32_t b = mesh_.triangles[t].corners[following(k)];
-        if (mesh_.flip(a, b)) break;
-      }
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
+      const std::int32_t a = mesh_.triangles[t].corners[k];
+      const std::int32_t b = mesh_.triangles[t].corners[following(k)];
+      if (mesh_.flip(a, b)) break;
     }
   }
 }
@@ -94,7 +98,7 @@ void WallRemesher::flip_all() {
 Vector3 WallRemesher::relaxed(std::int32_t v) const {
   const Vector3& p = mesh_.points[index(v)];
   if (mesh_.places[index(v)] == WallPlace::Line) {
-    const std::vector<std::int32_t> ends = mesh_.line_neighbours(v);
+    const WallVertices ends = mesh_.line_neighbours(v);
     if (ends.size() != 2) return p;
     return 0.5 * p + 0.25 * (mesh_.points[index(ends[0])] + mesh_.points[index(ends[1])]);
   }
@@ -155,12 +159,10 @@ void WallRemesher::relax(int times, const Execution& execution) {
         for (std::size_t c = 0; c < 3; ++c) {
           x[c] = mesh_.points[index(mesh_.triangles[t].corners[c])];
         }
-        const Vector3 before = doubled_area_normal(x[0], x[1], x[2]);
         for (std::size_t c = 0; c < 3; ++c) {
           if (index(mesh_.triangles[t].corners[c]) == k) x[c] = moved[k].point;
         }
-        const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
-        if (!(after.dot(before) > 0.3 * after.norm() * before.norm())) turns = true;
+        if (!mesh_.may_become(t, mesh_.triangles[t].corners, x, 0.3)) turns = true;
       });
       if (turns) continue;
       mesh_.points[k] = moved[k].point;
@@ -188,11 +190,10 @@ double WallRemesher::mean_ratio() const {
 void WallRemesher::improve(int rounds, const Execution& execution) {
   const double unlimited = 1e300;
   for (int round = 0; round < rounds; ++round) {
-    execution.report(0.3 + 0.7 * round / rounds, "Remeshing the walls");
     split_long();
     collapse_short(unlimited);
     flip_all();
-    relax(3, execution);
+    relax(2, execution);
   }
 }
 
@@ -208,7 +209,8 @@ void WallRemesher::run(double voxel, const Execution& execution) {
     relax(1, execution);
   }
   for (int round = 0; round < 3; ++round) {
-    improve(3, execution);
+    execution.report(0.3 + 0.2 * round, "Remeshing the walls");
+    improve(2, execution);
     factor_ = std::clamp(factor_ / mean_ratio(), 0.5, 2.0);
   }
   improve(2, execution);

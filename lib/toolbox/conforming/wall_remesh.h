@@ -18,7 +18,7 @@ class WallRemesher {
   /// mean of both.
   WallRemesher(const DenseWalls& dense, std::vector<double> edges);
 
-  /// Remeshes all walls from the dense ones.
+  /// Remeshes all walls from the dense ones. `voxel`: its edge; length.
   void run(double voxel, const Execution& execution);
 
   WallMesh& mesh() { return mesh_; }
@@ -28,7 +28,7 @@ class WallRemesher {
 
  private:
   double edge_of(const WallTriangle& t) const;
-  double wanted(const std::vector<std::size_t>& at_edge) const;
+  double wanted(std::int32_t a, std::int32_t b) const;
   void collapse_short(double most);
   void split_long();
   void flip_all();
