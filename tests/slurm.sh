@@ -102,10 +102,10 @@ for tries in $(seq 300); do
   sleep 1
 done
 scontrol show job "$job" -o | grep -q 'Restarts=[1-9]' || fail "No task was started again."
-"$program" collect out/grains-*-of-$parts.csv -o table.csv > summary.txt && fail "Nothing failed." ||
-  code=$?
+# shellcheck disable=SC2086
+"$program" batch "$work/scans" -o out -q $options 2> joined.txt && fail "Nothing failed." || code=$?
 [ "$code" -eq 3 ] || fail "The tables were not joined: $code."
-cmp table.csv whole/grains.csv
+cmp out/grains.csv whole/grains.csv
 echo "Slurm: 1000 grains in $parts parts; a node died when part $killed had $((before - 1)) rows."
 
 echo ":" > hosts

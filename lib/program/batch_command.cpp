@@ -50,8 +50,7 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
        {"scans -o out -n 500 --method as-published",
         "'scans/*.stl' @more.txt -o other --format stl", "scans -o out --shard 1/2"},
        "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. After an\n"
-       "interruption, the same call continues the batch. With --shard each part has its own\n"
-       "tables; join them with wscvt collect.",
+       "interruption, the same call continues the batch.",
        true,
        true});
   app.add_option("inputs", arguments.inputs,
@@ -60,10 +59,7 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
       ->type_name("INPUT")
       ->required();
   app.add_option("-o,--output", arguments.folder, "Output folder")->type_name("OUT")->required();
-  add_typed(app, "--shard",
-            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Remesh only part I of N of the grains, selected by their names")
-      ->type_name("I/N");
+  add_shard_argument(app, arguments.shard);
   add_format_argument(app, arguments.job.format);
   app.add_flag("--seconds", arguments.job.seconds,
                "Add the run time of each grain to the table; it differs between runs")
@@ -104,7 +100,8 @@ int run(const BatchArguments& arguments) {
   options.shapes.resolution =
       describes_scan(options.shapes.described) &&
       (options.volume.choice.voxel_size || std::any_of(files.begin(), files.end(), is_volume));
-  const GrainJob job = make_job(options, arguments.folder, arguments.shard);
+  GrainJob job = make_job(options, arguments.folder, arguments.shard);
+  job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
   print(write_summaries(job), arguments.quiet);

@@ -45,7 +45,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
         "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
         "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o run --size 0.02 --engine lammps"},
        "Mass, centre and inertia are the grain's. The report has the errors of the spheres' "
-       "own values.\nwscvt compare clump.csv scan.ply measures a clump.",
+       "own values.\nwscvt describe clump.csv scan.ply measures a clump.",
        true,
        true});
   app.add_option("-o,--output", arguments.outputs,

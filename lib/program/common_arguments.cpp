@@ -26,6 +26,14 @@ void add_quiet_argument(CLI::App& app, bool& quiet) {
   app.add_flag("-q,--quiet", quiet, "Print only warnings and failures");
 }
 
+void add_shard_argument(CLI::App& app, Shard& shard) {
+  add_typed(app, "--shard", [&shard](std::string_view text) { shard = shard_of(text); })
+      ->description(
+          "Use only part I of N of the grains, by their names. Afterwards, the same call without "
+          "this option joins the parts")
+      ->type_name("I/N");
+}
+
 void add_format_argument(CLI::App& app, std::string& format) {
   app.add_option("--format", format,
                  "Ending of the meshes: " + mesh_extensions(MeshUse::Write) +
@@ -60,9 +68,8 @@ CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::str
   return app.add_option(names, file, description)->type_name("FILE");
 }
 
-void add_common_arguments(CLI::App& app, CommonArguments& arguments,
-                          const std::string& names_of_report) {
-  app.add_option(names_of_report, arguments.reports,
+void add_common_arguments(CLI::App& app, CommonArguments& arguments) {
+  app.add_option("--report", arguments.reports,
                  "Write the report to this file: .html (pictures and histograms), .json (all "
                  "values) or .csv (appends one row to a table). May be given more than once")
       ->type_name("FILE")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/job/grain_files.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -18,10 +19,8 @@ struct CommonArguments {
   bool verbose = false;  ///< the whole report
 };
 
-/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`. If the report is a
-/// command's only output, it is also -o.
-void add_common_arguments(CLI::App& app, CommonArguments& arguments,
-                          const std::string& names_of_report = "--report");
+/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`.
+void add_common_arguments(CLI::App& app, CommonArguments& arguments);
 
 /// Adds -v, the whole log of a remesh.
 void add_verbose_argument(CLI::App& app, bool& verbose);
@@ -34,6 +33,9 @@ void add_folder_argument(CLI::App& app, std::string& folder);
 
 /// Adds -q of a command that works on many grains.
 void add_quiet_argument(CLI::App& app, bool& quiet);
+
+/// Adds --shard, a part of many grains.
+void add_shard_argument(CLI::App& app, Shard& shard);
 
 /// Adds --format, the ending of many meshes.
 void add_format_argument(CLI::App& app, std::string& format);

@@ -2,14 +2,26 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <string>
 
-#include "measure_arguments.h"
+#include "common_arguments.h"
+#include "toolbox/fabric/fabric.h"
+#include "toolbox/volume/volume_choice.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt::program {
 
-/// `wscvt describe`: measures the shape of one grain.
+/// `wscvt describe`: measures a grain, compares it with a reference, or measures the contacts of a
+/// volume of labels.
 struct DescribeArguments {
-  MeasureArguments measure;
+  std::string grain;      ///< a mesh, spheres, or a volume of labels
+  std::string reference;  ///< a mesh, or the grey values of the labels; empty: none
+  std::string folder;     ///< of the contacts
+  bool parts = false;     ///< each component of the grain is a convex part
+  CommonArguments common;
+  DetailedOptions options;
+  FabricOptions fabric;
+  VolumeChoice choice;
 };
 
 /// Adds the command to the program. Parsing changes `arguments`, which must outlive the program.

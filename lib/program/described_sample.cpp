@@ -180,12 +180,6 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
 
 }  // namespace
 
-const std::vector<std::string>& usual_template_descriptors() {
-  static const std::vector<std::string> keys = {"sphericity_wadell", "zingg_elongation_inertia",
-                                                "zingg_flatness_inertia", "convexity"};
-  return keys;
-}
-
 IndexedMesh grain_mesh(const std::string& file, const Execution& execution) {
   if (is_coefficient_file(file)) {
     return mesh_of_surface(*read_coefficients(file), frequency, execution);

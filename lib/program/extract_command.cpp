@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "extract_command.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "command.h"
 #include "common_arguments.h"
 #include "exit_code.h"
+#include "grain_inputs.h"
 #include "job_on_terminal.h"
 #include "output_paths.h"
 #include "signals.h"
 #include "toolbox/conforming/conforming_files.h"
-#include "toolbox/job/grain_files.h"
+#include "toolbox/job/label_source.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
+#include "volume_arguments.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/error.h"
@@ -29,62 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Outcome of a label that was used.
-enum class Made { Nothing, Mesh, MeshOfAPiece };
-
-/// Rows of the labels, and numbers of their outcomes.
-class LabelRows {
- public:
-  LabelRows(const std::string& volume, const LabelGrains& grains)
-      : grains_(grains), rows_(grains.labels().size()), made_(grains.taken().size()) {
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const LabelExtent& label = grains.labels()[k];
-      const LabelState state = grains.state(label);
-      if (state == LabelState::Taken) continue;
-      rows_[k] = label_row(volume, grains, label, {});
-      ++(state == LabelState::TooSmall ? too_small_ : at_border_);
-    }
-  }
-
-  /// May be called on several threads at once, for different grains.
-  void note(std::size_t grain, Made made) { made_[grain] = made; }
-
-  void take(std::size_t grain, const GrainRow& row) {
-    rows_[grains_.taken()[grain]] = row.records.front();
-    const Made made = made_[grain];
-    if (made == Made::MeshOfAPiece) ++in_pieces_;
-    if (made != Made::Nothing) {
-      ++written_;
-    } else if (row.error.empty()) {
-      ++too_small_;
-    }
-  }
-
-  std::string table() const { return std::accumulate(rows_.begin(), rows_.end(), label_header()); }
-
-  std::string summary(std::size_t failed) const {
-    std::string text =
-        std::to_string(rows_.size()) + " labels: " + std::to_string(written_) + " written";
-    const auto add = [&](std::size_t count, const char* what) {
-      if (count > 0) text += ", " + std::to_string(count) + what;
-    };
-    if (in_pieces_ > 0) text += " (" + std::to_string(in_pieces_) + " in pieces)";
-    add(at_border_, " at the border");
-    add(too_small_, " too small");
-    add(failed, " failed");
-    return text;
-  }
-
- private:
-  const LabelGrains& grains_;
-  std::vector<std::string> rows_;
-  std::vector<Made> made_;
-  std::size_t written_ = 0;
-  std::size_t in_pieces_ = 0;
-  std::size_t at_border_ = 0;
-  std::size_t too_small_ = 0;
-};
-
 constexpr FlagOption conforming_option = {
     "conforming", "remesh all grains at once",
     "with common walls; OUT also gets walls.vtu, walls.msh, walls.csv and grains.csv"};
@@ -96,7 +42,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
     if (grains.state(label) == LabelState::Taken) labels.push_back(label.label);
   }
   if (labels.empty()) {
-    refuse("No label of \"" + arguments.volume + "\" is a grain to mesh. Give " +
+    refuse("No label of \"" + arguments.input + "\" is a grain to mesh. Give " +
            mention(at_border_option) + " or a smaller " + mention(smallest_option) + ".");
   }
   CommonArguments common;
@@ -109,13 +55,13 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   };
   check_writable(in_folder("grains.csv"));
   ConformingOptions options = arguments.walls;
-  options.smoothing = arguments.options.smoothing;
+  options.smoothing = arguments.job.volume.smoothing;
   const ConformingGrains result =
       conform_labels(grains.voxels(), labels, options, work.execution());
   const std::vector<IndexedMesh> meshes = grain_meshes(result);
   std::vector<std::string> files;
   for (std::size_t g = 0; g < labels.size(); ++g) {
-    files.push_back(std::to_string(labels[g]) + "." + arguments.format);
+    files.push_back(std::to_string(labels[g]) + "." + arguments.job.format);
     work.write(in_folder(files.back()),
                [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
   }
@@ -126,7 +72,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const std::string rows =
       std::accumulate(grains.labels().begin(), grains.labels().end(), label_header(),
                       [&](std::string text, const LabelExtent& label) {
-                        return std::move(text) + label_row(arguments.volume, grains, label, {});
+                        return std::move(text) + label_row(arguments.input, grains, label, {});
                       });
   write("labels.csv", rows);
   write("walls.vtu", walls_vtu(result, labels));
@@ -139,106 +85,113 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 
+/// Returns the bodies of a mesh, with a progress line on a terminal unless quiet.
+std::unique_ptr<BodyGrains> open_bodies(const ExtractArguments& arguments) {
+  return with_progress(arguments.quiet, [&](const Execution& execution) {
+    return std::make_unique<BodyGrains>(arguments.input, arguments.job.smallest_body, execution);
+  });
+}
+
+/// Returns the call without what only a mesh or only a volume has. Throws Error for a wrong call.
+ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
+  check_format(arguments.job.format);
+  check_volume_options(arguments.job.volume);
+  if (same_file(arguments.input, arguments.folder)) {
+    refuse("\"" + arguments.input + "\" is the input itself. Give an output folder.");
+  }
+  if (!arguments.conforming && arguments.walls.edge_length > 0.0) {
+    refuse(mention(edge_length_option) + " is only for " + mention(conforming_option) + ".");
+  }
+  if (arguments.conforming && (is_mesh || arguments.shard.count > 1)) {
+    refuse(mention(conforming_option) + " takes a whole volume of labels at once.");
+  }
+  const std::string& smallest = arguments.smallest;
+  const bool is_share = !smallest.empty() && smallest.back() == '%';
+  if (!smallest.empty() && is_share != is_mesh) {
+    refuse(is_mesh ? "The smallest body of a mesh is a part of its largest. Give a %: " +
+                         mention("smallest", "0.1%") + "."
+                   : "The smallest grain of a volume is a number of voxels. Give it without %: " +
+                         mention("smallest", "100") + ".");
+  }
+  if (is_share) {
+    const std::string number = smallest.substr(0, smallest.size() - 1);
+    arguments.job.smallest_body = from_typed(number, smallest_body_option);
+  } else if (!smallest.empty()) {
+    arguments.job.volume.smallest = from_typed(smallest, smallest_option);
+  }
+  if (is_mesh) arguments.job.table = "bodies";
+  return arguments;
+}
+
 }  // namespace
 
 CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
   CLI::App& app = add_command(
-      program, {"extract",
-                "Make a mesh of each grain of a segmented CT volume",
-                {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
-                 "labels.nrrd grains --conforming --edge-length 4"},
-                "OUT gets one mesh per label, such as 12.ply, and labels.csv with the state of "
-                "every label.\n"
-                "wscvt batch reads volumes too and remeshes their grains.",
-                false,
-                true});
+      program,
+      {"extract",
+       "Write a mesh of each grain of a CT volume, or of each body of a mesh",
+       {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
+        "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --conforming --edge-length 4"},
+       "OUT gets one mesh per label or body, such as 12.ply, and labels.csv or bodies.csv "
+       "with the\nstate of each. The same call continues after an interruption. wscvt "
+       "batch remeshes the\ngrains of a volume, and with --parts the bodies of a mesh.",
+       true,
+       true});
   add_file_argument(
-      app, "volume", arguments.volume,
+      app, "input", arguments.input,
       "Labels: .tif, .nrrd, .mhd, .vti, .vtk, .nii, .npy, .npz, .h5, .mat, a folder of "
-      ".tif or .png slices, or the .json beside a .raw")
+      ".tif or .png slices, or the .json beside a .raw. Or a mesh: .ply, .stl and others")
       ->required();
   add_output(app, "output", arguments.folder, "Output folder", "OUT");
-  add_volume_arguments(app, arguments.options, "Options");
+  add_volume_arguments(app, arguments.job.volume, "Options");
+  app.remove_option(app.get_option("--smallest"));
+  add_typed(app, "--smallest",
+            [&arguments](std::string_view text) { arguments.smallest = std::string(text); })
+      ->description(
+          "Smallest grain: voxels of a volume, or % of a mesh's largest body, as 0.1%. "
+          "Smaller ones, and open surfaces, are only listed. Default: 100, or 0%")
+      ->type_name("N");
   app.add_flag("--conforming", arguments.conforming,
                help_of(arguments.conforming, conforming_option));
   add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
-  add_format_argument(app, arguments.format);
+  add_format_argument(app, arguments.job.format);
+  add_shard_argument(app, arguments.shard);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
+  add_quiet_argument(app, arguments.quiet);
+  for (const char* name : {"--smoothing", "--background", "--at-border", "--channel", "--time",
+                           "--array", "--shard", "--threads", "--quiet"}) {
+    app.get_option(name)->group(finer_settings);
+  }
   return app;
 }
 
-int run(const ExtractArguments& arguments) {
-  checked([&] {
-    check_format(arguments.format);
-    check_volume_options(arguments.options);
-    if (!arguments.conforming && arguments.walls.edge_length > 0.0) {
-      refuse(mention(edge_length_option) + " is only for " + mention(conforming_option) + ".");
-    }
-    if (same_file(arguments.volume, arguments.folder)) {
-      refuse("\"" + arguments.volume + "\" is the volume itself. Give an output folder.");
-    }
-    if (!is_volume(arguments.volume) && is_mesh_file(arguments.volume)) {
-      refuse("\"" + arguments.volume +
-             "\" is a mesh, not a volume. wscvt split MESH FOLDER writes each of its bodies, and "
-             "wscvt batch MESH -o OUT --parts remeshes them.");
-    }
-    if (!is_volume(arguments.volume)) open_volume(arguments.volume);  // throws its error
+int run(const ExtractArguments& given) {
+  const bool is_mesh = !is_volume(given.input) && is_mesh_file(given.input);
+  const ExtractArguments arguments = checked([&] {
+    if (is_mesh) check_mesh_input(given.input);
+    ExtractArguments call = checked_call(given, is_mesh);
+    if (!is_mesh && !is_volume(call.input)) open_volume(call.input);  // throws its error
+    return call;
   });
   if (!arguments.quiet) check_writable("/dev/stdout");
-  const std::unique_ptr<LabelGrains> grains =
-      open_grains(arguments.volume, arguments.options, arguments.quiet);
-  print_notes(*grains, "wscvt extract " + arguments.volume + " " + arguments.folder,
-              arguments.quiet);
-  if (arguments.conforming) return run_conforming(arguments, *grains);
-  const fs::path folder = arguments.folder;
-  std::error_code error;
-  fs::create_directories(folder, error);
-  const std::string table = (folder / "labels.csv").string();
-  check_writable(table);
-  remove_partial_file(table);
-  LabelRows rows(arguments.volume, *grains);
-  std::vector<std::size_t> all(grains->taken().size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  grains->want(all);
-
-  const auto label_of = [&](std::size_t k) -> const LabelExtent& {
-    return grains->labels()[grains->taken()[k]];
-  };
-  const auto file_of = [&](std::size_t k) {
-    return std::to_string(label_of(k).label) + "." + arguments.format;
-  };
-  // Files of a killed call.
-  for (const std::size_t k : all) remove_partial_file((folder / file_of(k)).string());
-  GrainRun run;
-  run.count = all.size();
-  run.when_stopped = "No table was written. The same call starts from the beginning.";
-  run.name = [&](std::size_t k) { return grain_name(arguments.volume, label_of(k).label); };
-  run.work = [&](std::size_t k, const Execution& execution) {
-    const auto row_of = [&](const LabelOutcome& outcome) -> GrainRow {
-      return {{label_row(arguments.volume, *grains, label_of(k), outcome)}, outcome.error};
-    };
-    return row_or_failure(
-        [&] {
-          const LabelGrain grain = grains->read(k, execution);
-          LabelOutcome outcome{&grain, "", ""};
-          if (!grain.mesh.points.empty()) {
-            outcome.file = file_of(k);
-            write_mesh(grain.mesh, (folder / outcome.file).string());
-            rows.note(k, grain.pieces > 1 ? Made::MeshOfAPiece : Made::Mesh);
-          }
-          return row_of(outcome);
-        },
-        [&](const std::string& sentence) {
-          return row_of({nullptr, "", sentence});
-        });
-  };
-  run.take = [&](std::size_t k, const GrainRow& row) { rows.take(k, row); };
-  const JobEnd end = run_grains(run, arguments.threads, arguments.quiet);
+  JoinedGrains grains(arguments.shard);
+  if (is_mesh) {
+    std::unique_ptr<BodyGrains> bodies = open_bodies(arguments);
+    print_warnings(bodies->warnings());
+    grains.add(std::move(bodies));
+  } else {
+    auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
+    print_notes(*labels, "wscvt extract " + arguments.input + " " + arguments.folder,
+                arguments.quiet);
+    if (arguments.conforming) return run_conforming(arguments, *labels);
+    grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
+  }
+  const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);
+  const JobEnd end = run_job(job, grains, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  write_file(table, rows.table());
-  print({rows.summary(end.failed)}, arguments.quiet);
-  return end.failed == 0 && !is_much_left_out(grains->left_out()) ? Done : SomeFailed;
+  print({job.shard.count > 1 ? end_line(job, end) : write_census(arguments.job, job, grains)},
+        arguments.quiet);
+  return end.failed == 0 && !is_much_left_out(grains.left_out()) ? Done : SomeFailed;
 }
 
 }  // namespace wscvt::program

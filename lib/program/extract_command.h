@@ -5,19 +5,20 @@
 #include <string>
 
 #include "toolbox/conforming/conforming_grains.h"
-#include "volume_arguments.h"
+#include "toolbox/job/extract_job.h"
 
 namespace wscvt::program {
 
-/// `wscvt extract`: makes a dense mesh of each grain of a volume of labels.
+/// `wscvt extract`: makes a mesh of each label of a volume, or of each body of a mesh.
 struct ExtractArguments {
-  std::string volume;
-  VolumeOptions options;
+  std::string input;  ///< a volume or a mesh
   std::string folder;
-  std::string format = "ply";
-  bool conforming = false;
-  ConformingOptions walls;  ///< of conforming grains
-  int threads = 0;          ///< 0: all
+  std::string smallest;  ///< voxels, or % of the largest body; empty: the job's
+  ExtractJob job;
+  Shard shard;
+  bool conforming = false;  ///< remeshes all labels at once
+  ConformingOptions walls;  ///< of that; its smoothing is the job's
+  int threads = 0;
   bool quiet = false;
 };
 

@@ -25,17 +25,6 @@ namespace wscvt::program {
 
 namespace {
 
-/// Returns the bodies of a mesh file as grains, or the file itself.
-std::unique_ptr<MeshGrains> bodies_of(const std::string& path, bool quiet) {
-  note_signals();
-  ProgressLine line(!quiet);
-  const Execution execution(1, [&](double fraction, const std::string& stage) {
-    line.show(fraction, stage);
-    return noted_signal() == 0;
-  });
-  return std::make_unique<MeshGrains>(path, execution);
-}
-
 void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet) {
   if (bodies.list.empty()) return;
   print({path + ": " + std::to_string(bodies.list.size()) + " bodies"}, quiet);
@@ -91,11 +80,8 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
          "Ending of the " + files + " of several scans, without the point. Default: " + format)
       ->type_name("NAME")
       ->group(finer_settings);
-  add_typed(app, "--shard",
-            [&arguments](std::string_view text) { arguments.shard = shard_of(text); })
-      ->description("Use only part I of N of several scans, selected by their names")
-      ->type_name("I/N")
-      ->group(finer_settings);
+  add_shard_argument(app, arguments.shard);
+  app.get_option("--shard")->group(finer_settings);
   app.add_option("--engine", arguments.engine,
                  "Make a folder of the " + files +
                      " that this engine packs: " + engine_names(shapes) +
@@ -139,15 +125,14 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
   }
 }
 
-int run_sample(const ScanInputs& arguments, const GrainJob& job, EngineShapes shapes,
+int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, int threads, bool quiet) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print({std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
-         " failed: " + folders_of(job).front().table()},
-        quiet);
+  print({end_line(job, end)}, quiet);
   if (!arguments.engine.empty() && arguments.shard.count == 1) {
     const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame);
     print({"Pack them: cd " + folders_of(job).front().path() + " && " + start}, quiet);
@@ -173,7 +158,8 @@ std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
       print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
       inputs->add(std::make_unique<LabelSource>(path, std::move(grains)));
     } else if (options.parts) {
-      std::unique_ptr<MeshGrains> bodies = bodies_of(path, quiet);
+      std::unique_ptr<MeshGrains> bodies = with_progress(
+          quiet, [&](const Execution& one) { return std::make_unique<MeshGrains>(path, one); });
       print_bodies(path, bodies->bodies(), quiet);
       inputs->add(std::move(bodies));
     } else {

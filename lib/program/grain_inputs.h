@@ -42,7 +42,7 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 
 /// Runs the job of a sample, prints its table's name, and returns the exit code. With an engine,
 /// writes what it needs, and prints the command that starts it.
-int run_sample(const ScanInputs& arguments, const GrainJob& job, EngineShapes shapes,
+int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, int threads, bool quiet);
 
 /// Returns the files of the inputs of a batch, see grain_files. Throws wscvt::Error for a file that

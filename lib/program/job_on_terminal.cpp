@@ -77,4 +77,10 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet
   });
 }
 
+std::string end_line(const GrainJob& job, const JobEnd& end) {
+  const JobFolder folder = folders_of(job).front();
+  return std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
+         " failed: " + folder.file(job.tables.front().name, ".csv");
+}
+
 }  // namespace wscvt::program

@@ -19,16 +19,13 @@
 #include "batch_command.h"
 #include "call_words.h"
 #include "clump_command.h"
-#include "collect_command.h"
 #include "command.h"
-#include "compare_command.h"
 #include "completion.h"
 #include "convex_command.h"
 #include "create_command.h"
 #include "describe_command.h"
 #include "exit_code.h"
 #include "extract_command.h"
-#include "fabric_command.h"
 #include "fragment_command.h"
 #include "grow_command.h"
 #include "man_pages.h"
@@ -36,9 +33,7 @@
 #include "sample_command.h"
 #include "segment_command.h"
 #include "signals.h"
-#include "split_command.h"
 #include "standard_streams.h"
-#include "templates_command.h"
 #include "wrong_call.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -73,13 +68,11 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   const std::vector<Command> commands = {
       make_command<program::RemeshArguments>(app),   make_command<program::DescribeArguments>(app),
-      make_command<program::CompareArguments>(app),  make_command<program::CreateArguments>(app),
-      make_command<program::SegmentArguments>(app),  make_command<program::ExtractArguments>(app),
-      make_command<program::BatchArguments>(app),    make_command<program::CollectArguments>(app),
-      make_command<program::SplitArguments>(app),    make_command<program::SampleArguments>(app),
-      make_command<program::GrowArguments>(app),     make_command<program::TemplatesArguments>(app),
+      make_command<program::CreateArguments>(app),   make_command<program::SegmentArguments>(app),
+      make_command<program::ExtractArguments>(app),  make_command<program::BatchArguments>(app),
+      make_command<program::SampleArguments>(app),   make_command<program::GrowArguments>(app),
       make_command<program::ClumpArguments>(app),    make_command<program::ConvexArguments>(app),
-      make_command<program::FragmentArguments>(app), make_command<program::FabricArguments>(app),
+      make_command<program::FragmentArguments>(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed like the version

@@ -87,7 +87,7 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
             })
       ->description(help_of(static_cast<int>(arguments.options.seed), seed_option))
       ->type_name("N");
-  app.add_option("-o,--report", arguments.reports,
+  app.add_option("--report", arguments.reports,
                  "Write the report to this file: .html (a page), .json or .csv (all statistics). "
                  "May be given more than once")
       ->type_name("FILE")

@@ -7,8 +7,6 @@
 #include <optional>
 
 #include "command.h"
-#include "progress_line.h"
-#include "signals.h"
 #include "toolbox/volume/segmentation.h"
 #include "work.h"
 #include "wscvt/base/error.h"
@@ -112,21 +110,15 @@ void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::stri
 
 std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const VolumeOptions& options,
                                          bool quiet) {
-  note_signals();
-  ProgressLine line(!quiet);
-  const Execution execution(1, [&](double fraction, const std::string& stage) {
-    line.show(fraction, stage);
-    return noted_signal() == 0;
+  return with_progress(quiet, [&](const Execution& execution) {
+    return std::make_unique<LabelGrains>(volume, options, execution);
   });
-  return std::make_unique<LabelGrains>(volume, options, execution);
 }
 
 void print_notes(const LabelGrains& grains, const std::string& command, bool quiet) {
   print({grains.description()}, quiet);
   for (const std::string& note : grains.notes()) print({note}, quiet);
-  for (const std::string& warning : grains.warnings()) {
-    std::fprintf(stderr, "Warning: %s\n", warning.c_str());
-  }
+  print_warnings({grains.warnings().begin(), grains.warnings().end()});
   std::size_t in_pieces = 0;
   std::size_t pieces = 0;
   for (const std::size_t k : grains.taken()) {

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <ctime>
 
-#include "signals.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -55,9 +54,7 @@ Work::Work(const CommonArguments& arguments)
 
 void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines) {
   line_.clear();
-  for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
-  }
+  print_warnings({warnings.begin(), warnings.end()});
   program::print(lines, quiet_);
 }
 
@@ -76,6 +73,12 @@ void Work::print_log(const RemeshResult& result, bool verbose) {
   lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
   lines.push_back(verdict_line(result));
   print(result.warnings, lines);
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
+  }
 }
 
 void print(const std::vector<std::string>& lines, bool quiet) {

@@ -7,6 +7,7 @@
 
 #include "common_arguments.h"
 #include "progress_line.h"
+#include "signals.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/report/report.h"
 
@@ -50,6 +51,20 @@ class Work {
   std::vector<std::string> written_;
   Execution execution_;
 };
+
+/// Returns the result of `work`, with a progress line on a terminal unless quiet. A signal cancels.
+template <class DoWork>
+auto with_progress(bool quiet, const DoWork& work) {
+  note_signals();
+  ProgressLine line(!quiet);
+  return work(Execution(1, [&](double fraction, const std::string& stage) {
+    line.show(fraction, stage);
+    return noted_signal() == 0;
+  }));
+}
+
+/// Prints warnings to the standard error.
+void print_warnings(const std::vector<std::string>& warnings);
 
 /// Prints lines to the standard output, unless quiet.
 void print(const std::vector<std::string>& lines, bool quiet);

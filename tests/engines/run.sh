@@ -63,7 +63,7 @@ for k in 1 2 3 4 5 6 7 8 9; do
   "$program" create superellipsoid "bodies/body_$k.ply" -q -n 300 \
     --semi-axes "1.$k" 1 "0.$((12 - k))" --polar-exponent "0.$((2 + k))"
 done
-"$program" templates bodies -o templates -q -k 3 -n 100
+"$program" grow --templates bodies -o templates -q -k 3 -n 100
 (cd templates && yade -n -x yade_packing.py 12 > yade.log 2>&1) || {
   tail -n 30 templates/yade.log >&2
   exit 1

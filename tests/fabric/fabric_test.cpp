@@ -330,7 +330,7 @@ TEST_F(FabricOfAFile, RefusesWhatHasNoContacts) {
   EXPECT_NE(refused("chain.nrrd", "flat.nrrd").find("do not differ"), std::string::npos);
   one.fill_ball(9, {2, 2, 4}, 1.2);
   write_labels(one, "small.nrrd");
-  EXPECT_NE(refused("small.nrrd", "small.nrrd").find("Leave --scan out"), std::string::npos);
+  EXPECT_NE(refused("small.nrrd", "small.nrrd").find("Leave the scan out"), std::string::npos);
   write("floats.nrrd",
         "NRRD0004\ntype: float\ndimension: 3\nencoding: ascii\nsizes: 2 1 1\n\n1.5 2\n");
   EXPECT_ERROR(measured("floats.nrrd"), InputOutput);

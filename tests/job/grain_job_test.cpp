@@ -40,8 +40,8 @@ class Points : public GrainSource {
     scan.mesh.points = {Vector3(static_cast<double>(grain), 0.0, 0.0)};
     return scan;
   }
-  std::string census(const FileOf& file_of) const override {
-    return "what,file\r\n" + file_of(name(0)) + "," + file_of(name(1)) + "\r\n";
+  std::string census(const MadeOf& made_of) const override {
+    return "what,file\r\n" + made_of(name(0)).file + "," + made_of(name(1)).file + "\r\n";
   }
 
   std::vector<std::size_t> wanted_;
@@ -140,26 +140,52 @@ TEST_F(Job, GoesOnWhereItWasCut) {
 TEST_F(Job, PartsAreTheWhole) {
   Points grains(40);
   run_job(number_job("whole"), grains, {2});
-  std::vector<std::string> tables;
-  for (const int index : {1, 2}) {
+  std::atomic<int> made{0};
+  for (const int index : {2, 1, 0}) {
     GrainJob job = number_job("out");
-    job.shard = {index, 2};
+    if (index > 0) job.shard = {index, 2};
+    job.make = [&, make = job.make](GrainAtWork& grain) {
+      ++made;
+      return make(grain);
+    };
     JoinedGrains part(job.shard);
     part.add(std::make_unique<Points>(40));
     EXPECT_GT(part.size(), 5U);
-    EXPECT_LT(part.size(), 35U);
+    EXPECT_LT(part.size(), index == 0 ? 41U : 35U);
     run_job(job, part, {2});
-    tables.push_back(folders_of(job).front().table());
-    EXPECT_EQ(fs::path(tables.back()).filename(), "grains-" + std::to_string(index) + "-of-2.csv");
+    const fs::path table = folders_of(job).front().table();
+    EXPECT_EQ(table.filename(),
+              index == 0 ? "grains.csv" : "grains-" + std::to_string(index) + "-of-2.csv");
   }
-  const auto joined = [&](const std::vector<std::string>& parts) {
-    join_tables(parts, (folder_ / "all.csv").string());
-    return content("all.csv");
-  };
-  EXPECT_EQ(joined(tables), joined({(folder_ / "whole/grains.csv").string()}));
+  EXPECT_EQ(made, 40) << "the whole takes over what its parts made";
+  for (const std::string name : {"/grains.csv", "/other.csv"}) {
+    EXPECT_EQ(content("out" + name), content("whole" + name)) << name;
+  }
   for (int k = 0; k < 40; ++k) {
     EXPECT_EQ(content("out/grain" + std::to_string(k) + ".txt"), std::to_string(k));
   }
+}
+
+TEST_F(Job, OnlyResultsStayOfOneThatIsNotKept) {
+  GrainJob job = number_job("out");
+  job.is_kept = false;
+  std::atomic<int> made{0};
+  job.make = [&, make = job.make](GrainAtWork& grain) {
+    ++made;
+    return make(grain);
+  };
+  JobHost host{1};
+  host.is_cancelled = [&] { return made >= 5; };
+  Points grains(10);
+  ASSERT_TRUE(run_job(job, grains, host).was_cancelled());
+  EXPECT_TRUE(fs::exists(folder_ / "out/call.json"));
+  const int before = made;
+  run_job(job, grains, {1});
+  EXPECT_LT(made, before + 10) << "it goes on";
+  EXPECT_FALSE(fs::exists(folder_ / "out/call.json"));
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 10) << "anew";
 }
 
 TEST_F(Job, LevelsHaveTheirFilesAndTables) {

@@ -438,19 +438,17 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
   EXPECT_EQ(run("batch scans -o out2 --format step").exit_code, 2);
 }
 
-TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
+TEST_F(Batch, PartsAreStableAndTheSameCallJoinsThem) {
   write_scans(8);
   std::ofstream(folder_ / "scans/broken.ply") << "no mesh";
   ASSERT_EQ(run(std::string("batch scans -o whole") + options_).exit_code, 3);
   for (const int count : {2, 3}) {
     const std::string out = "out" + std::to_string(count);
-    std::string tables;
-    for (int index = 1; index <= count; ++index) {
+    for (int index = count; index >= 1; --index) {
       const std::string part = std::to_string(index) + "/" + std::to_string(count);
       run("batch scans -o " + out + options_ + "--shard " + part);
       const std::string table =
           out + "/grains-" + std::to_string(index) + "-of-" + std::to_string(count) + ".csv";
-      tables = table + " " + tables;  // in no order of theirs
       for (const std::string& grain : column(table, "grain")) {
         std::uint64_t hash = 0xcbf29ce484222325ULL;  // FNV-1a, as its authors give it
         for (const char c : grain.substr(6)) {
@@ -460,33 +458,31 @@ TEST_F(Batch, PartsAreStableAndJoinToTheWhole) {
             << grain;
       }
     }
+    // What has a row is not made again.
+    fs::remove(path(out + "/grain3.ply"));
     const Outcome joined =
-        run("collect " + tables + "-o all.csv --report all.json --report all.html");
+        run("batch scans -o " + out + std::regex_replace(options_, std::regex(" -q"), ""));
     EXPECT_EQ(joined.exit_code, 3) << joined.errors;
-    EXPECT_EQ(content("all.csv"), content("whole/grains.csv"));
-    EXPECT_EQ(content("all.json"), content("whole/summary.json"));
-    EXPECT_EQ(content("all.html"), content("whole/summary.html"));
-    EXPECT_NE(content("all.html").find("<h2>Remeshes</h2>"), std::string::npos);
     EXPECT_NE(joined.output.find("1 failed"), std::string::npos);
-    EXPECT_EQ(run("collect " + std::regex_replace(tables, std::regex("grains-"), "shape-") +
-                  "-o shape.csv")
-                  .exit_code,
-              0);
-    EXPECT_EQ(content("shape.csv"), content("whole/shape.csv"));
+    EXPECT_NE(joined.errors.find("Failed: scans/broken.ply: "), std::string::npos);
+    EXPECT_FALSE(exists(out + "/grain3.ply"));
+    for (const std::string file : {"/grains.csv", "/shape.csv", "/summary.json"}) {
+      EXPECT_EQ(content(out + file), content("whole" + file)) << file;
+    }
   }
-  // The same rows twice are one; others are refused, and so is a table that is cut.
-  EXPECT_EQ(run("collect whole/grains.csv out2/grains-1-of-2.csv -q -o twice.csv").exit_code, 3);
-  EXPECT_EQ(content("twice.csv"), content("whole/grains.csv"));
-  ASSERT_EQ(run("batch " + scan(0) + " -o other -q -n 61 -d 6").exit_code, 0);
-  const Outcome other = run("collect whole/grains.csv other/grains.csv -o bad.csv");
-  EXPECT_EQ(other.exit_code, 1);
-  EXPECT_NE(other.errors.find("different rows"), std::string::npos) << other.errors;
-  fs::resize_file(folder_ / "other/grains.csv", content("other/grains.csv").size() - 1);
-  EXPECT_EQ(run("collect other/grains.csv -o bad.csv").exit_code, 1);
-  EXPECT_EQ(run("collect whole/summary.json -o bad.csv").exit_code, 1);
-  EXPECT_EQ(run("collect whole/grains.csv -o whole/grains.csv").exit_code, 2);
-  EXPECT_EQ(run("collect whole/grains.csv -o bad.csv --report bad.pdf").exit_code, 2);
-  EXPECT_FALSE(exists("bad.csv"));
+  // A part of other options is refused, and nothing is begun.
+  fs::create_directory(path("mixed"));
+  ASSERT_LE(run("batch scans -o mixed -q -n 61 -d 6 --shard 1/2").exit_code, 3);
+  const Outcome other = run(std::string("batch scans -o mixed") + options_);
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.errors.find("call-1-of-2.json"), std::string::npos) << other.errors;
+  EXPECT_FALSE(exists("mixed/grains.csv"));
+  // Of a part that was cut, the whole makes what is missing.
+  const std::string part = content("out2/grains-1-of-2.csv");
+  fs::resize_file(folder_ / "out2/grains-1-of-2.csv", part.size() - 1);
+  for (const char* table : {"out2/grains.csv", "out2/shape.csv"}) fs::remove(path(table));
+  ASSERT_EQ(run(std::string("batch scans -o out2") + options_).exit_code, 3);
+  EXPECT_EQ(content("out2/grains.csv"), content("whole/grains.csv"));
 }
 
 TEST_F(Batch, TellsRateAndTimeLeftOnATerminal) {

@@ -33,7 +33,7 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
   EXPECT_NE(content("c.molecule").find("density 3\n"), std::string::npos);
   EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
   EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
-  const Outcome compared = run("compare c.csv scan.ply");
+  const Outcome compared = run("describe c.csv scan.ply");
   EXPECT_EQ(compared.exit_code, 0) << compared.errors;
   EXPECT_NE(compared.output.find("root mean square, from the reference"), std::string::npos);
 }
@@ -57,8 +57,8 @@ TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
   EXPECT_EQ(run("clump scans -k 3 -o out -q").exit_code, 2);
   ASSERT_LE(run("clump scans -k 2 -o parts -q --shard 1/2").exit_code, 3);
   ASSERT_LE(run("clump scans -k 2 -o parts -q --shard 2/2").exit_code, 3);
-  ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv -o all.csv").exit_code, 0);
-  EXPECT_EQ(content("all.csv"), table);
+  ASSERT_EQ(run("clump scans -k 2 -o parts -q").exit_code, 3);
+  EXPECT_EQ(content("parts/grains.csv"), table);
   EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule --density 3").exit_code, 3);
   EXPECT_NE(content("molecules/b.molecule").find("density 3\n"), std::string::npos);
   EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule").exit_code, 2);
@@ -101,9 +101,8 @@ TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
   for (const std::string part : {"1/2", "2/2"}) {
     ASSERT_LE(run("convex scans -o parts --format urdf --shard " + part + options).exit_code, 3);
   }
-  ASSERT_EQ(run("collect parts/grains-1-of-2.csv parts/grains-2-of-2.csv -o all.csv").exit_code, 0);
-  EXPECT_EQ(run("collect all.csv -o other.csv --report all.html").exit_code, 2);
-  EXPECT_EQ(content("all.csv"), table);
+  ASSERT_EQ(run("convex scans -o parts --format urdf" + options).exit_code, 3);
+  EXPECT_EQ(content("parts/grains.csv"), table);
   expect_refused("convex scans",
                  {{"-o parts.obj", 2, "one folder with -o"},
                   {"-o new --report r.html", 2, "Leave out --report"},

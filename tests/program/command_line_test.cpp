@@ -381,7 +381,7 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   // Only what the help of the command shows is proposed.
   EXPECT_NE(refusal("remesh a.ply b.ply --helpall").find("Did you mean --help-all?"),
             std::string::npos);
-  EXPECT_EQ(refusal("collect a.csv --helpall").find("Did you mean"), std::string::npos);
+  EXPECT_EQ(refusal("sample a.csv --helpall").find("Did you mean"), std::string::npos);
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);

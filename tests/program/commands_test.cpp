@@ -203,15 +203,12 @@ TEST_F(Commands, AnOutputIsTheLastWordOrNamed) {
   EXPECT_EQ(content("two.ply"), content("one.ply"));
   EXPECT_EQ(run("create ellipsoid -o made.ply -q -n 40").exit_code, 0);
   EXPECT_TRUE(exists("made.ply"));
-  EXPECT_EQ(run("split scan.ply -o bodies -q").exit_code, 0);
+  EXPECT_EQ(run("extract scan.ply -o bodies -q").exit_code, 0);
   EXPECT_TRUE(exists("bodies/1.ply"));
-  EXPECT_EQ(run("describe scan.ply -o shape.json -q").exit_code, 0);
-  EXPECT_FALSE(content("shape.json").empty());
-  // All take -o; those that only measure, for their reports.
+  // All take -o, except the one that only writes reports.
   for (const std::string& command : commands()) {
-    const bool measures = command == "describe" || command == "compare" || command == "sample";
-    EXPECT_NE(run(command + " --help").output.find(measures ? "-o,--report" : "-o,--output"),
-              std::string::npos)
+    EXPECT_EQ(run(command + " --help").output.find("-o,--output") != std::string::npos,
+              command != "sample")
         << command;
   }
 }
@@ -222,7 +219,6 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
   EXPECT_EQ(run("scan.ply one.ply -n 3").exit_code, 2);
   std::ofstream(folder_ / "torn.ply") << "ply\n";
   EXPECT_EQ(run("batch scan.ply torn.ply -o out -q -n 40").exit_code, 3);
-  EXPECT_EQ(run("collect out/grains.csv -o all.csv -q").exit_code, 3);
   test::MadeVolume volume({30, 20, 20});
   volume.fill_ball(1, {8, 10, 10}, 6.0);
   volume.fill_ball(1, {22, 10, 10}, 5.0);
@@ -231,11 +227,9 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
   for (const auto& [command, may_be_three] :
        std::vector<std::pair<std::string, bool>>{{"batch", true},
                                                  {"clump", true},
-                                                 {"collect", true},
                                                  {"extract", true},
                                                  {"remesh", false},
                                                  {"describe", false},
-                                                 {"compare", false},
                                                  {"create", false}}) {
     EXPECT_EQ(run(command + " --help").output.find("; 3 done, but some") != std::string::npos,
               may_be_three)
@@ -249,7 +243,6 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   write_mesh(read_mesh(path("first.ply")), path("scans/a.ply"));
   write_mesh(read_mesh(path("scan.ply")), path("scans/b.stl"));
   std::ofstream(folder_ / "more.txt") << "first.ply\n";
-  ASSERT_EQ(run("batch scans -o out -q --shard 2/2").exit_code, 0);
   for (const char* name : {"grain.ply", "grain.stl", "remesh.ply", "sample.stl"}) {
     write_mesh(read_mesh(path("first.ply")), path(name));
   }
@@ -271,9 +264,8 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   std::ofstream(folder_ / "sieve.csv") << "1,0\n2,100\n";
   std::ofstream(folder_ / "supplier.csv") << "grain,feret_min,convexity\na,2,0.9\nb,3,0.8\n";
   for (const std::string& command : commands()) {
-    // These take a sample of hundreds of grains: templates_test.cpp and grow_test.cpp run them on
-    // less.
-    if (command == "templates" || command == "grow") continue;
+    // It takes a sample of hundreds of grains: templates_test.cpp and grow_test.cpp run it on less.
+    if (command == "grow") continue;
     for (const std::string& line : lines_of(run(command + " --help").output)) {
       const std::string program = "  wscvt ";
       if (line.rfind(program, 0) != 0) continue;
@@ -401,9 +393,9 @@ TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
   EXPECT_EQ(run("describe scan.ply --voxel-size 0").exit_code, 2);
 }
 
-TEST_F(Commands, CompareMeasuresAgainstTheReference) {
+TEST_F(Commands, DescribeMeasuresAgainstTheReference) {
   ASSERT_EQ(run("scan.ply remesh.ply -q -n 60").exit_code, 0);
-  const Json report = report_of("compare remesh.ply scan.ply --report table.csv");
+  const Json report = report_of("describe remesh.ply scan.ply --report table.csv");
   const GrainMeasures measures = measure_grain({"remesh.ply", read_mesh(path("remesh.ply"))},
                                                NamedMesh{"scan.ply", read_mesh(path("scan.ply"))},
                                                DetailedOptions(), Execution());
@@ -415,9 +407,9 @@ TEST_F(Commands, CompareMeasuresAgainstTheReference) {
   EXPECT_GT(measures.distances->largest, 0.0);
   // A table of grains without a reference has other columns, and no input is written over.
   ASSERT_EQ(run("describe scan.ply -q --report single.csv").exit_code, 0);
-  EXPECT_EQ(run("compare remesh.ply scan.ply --report single.csv").exit_code, 2);
+  EXPECT_EQ(run("describe remesh.ply scan.ply --report single.csv").exit_code, 2);
   fs::create_symlink("scan.ply", folder_ / "link.json");
-  const Outcome over = run("compare remesh.ply scan.ply --report link.json");
+  const Outcome over = run("describe remesh.ply scan.ply --report link.json");
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_NE(over.errors.find("the reference itself"), std::string::npos) << over.errors;
 }

@@ -25,7 +25,7 @@ class FabricCommand : public test::ProgramRun {
 };
 
 TEST_F(FabricCommand, WritesTablesDiscsAndAPage) {
-  const Outcome outcome = run("fabric labels.nrrd -o out");
+  const Outcome outcome = run("describe labels.nrrd -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("2 grains, 0 of them at the border\n1 pair of labels touches: 1 in "
                                 "contact, 0 with"),
@@ -38,11 +38,11 @@ TEST_F(FabricCommand, WritesTablesDiscsAndAPage) {
   EXPECT_EQ(test::count_of(content("out/fabric.html"), "<svg"), 6U);
   EXPECT_NE(content("out/fabric.html").find("Made from labels.nrrd by wscvt"), std::string::npos);
 
-  const Outcome blurred = run("fabric labels.nrrd -o blurred --scan scan.nrrd");
+  const Outcome blurred = run("describe labels.nrrd scan.nrrd -o blurred");
   EXPECT_EQ(blurred.exit_code, 0) << blurred.errors;
   EXPECT_NE(blurred.output.find("Blur of the scan"), std::string::npos);
   EXPECT_NE(content("blurred/contacts.csv"), content("out/contacts.csv"));
-  EXPECT_EQ(run("fabric labels.nrrd -o out --voxel-size 12um -q").output, "");
+  EXPECT_EQ(run("describe labels.nrrd -o out --voxel-size 12um -q").output, "");
   EXPECT_NE(content("out/contacts.csv").find(",um\r\n"), std::string::npos);
 }
 
@@ -51,13 +51,14 @@ TEST_F(FabricCommand, RefusesWrongCallsBeforeAnythingIsMade) {
   test::MadeVolume one({20, 20, 20});
   one.fill_ball(2, {10, 10, 10}, 5.0);
   test::write_bytes(folder_ / "one.nrrd", test::nrrd(one, units_));
-  expect_refused("fabric",
-                 {{"grain.ply -o out", 2, "the ending of a volume"},
+  expect_refused("describe",
+                 {{"grain.ply -o out", 2, "Give --report"},
+                  {"labels.nrrd -o out --report page.html", 2, "Leave out --report"},
                   {"nothing.nrrd -o out", 1, "cannot be opened"},
                   {"labels.nrrd -o labels.nrrd", 2, "the labels"},
                   {"one.nrrd -o out", 1, "one label, 2"},
-                  {"labels.nrrd -o out --scan nothing.nrrd", 1, "nothing.nrrd"},
-                  {"labels.nrrd", 2, "-o"}},
+                  {"labels.nrrd nothing.nrrd -o out", 1, "nothing.nrrd"},
+                  {"labels.nrrd", 2, "--output"}},
                  {"out"});
 }
 

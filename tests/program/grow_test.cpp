@@ -29,7 +29,7 @@ class Grow : public test::ProgramRun {
 
 TEST_F(Grow, WritesMeshesAndATableThatThreadsDoNotChange) {
   write_sample(9);
-  const std::string call = "grow real -n 12 --nodes 80 --degree 6 --seed 3";
+  const std::string call = "grow real -k 12 -n 80 --degree 6 --seed 3";
   const Outcome outcome = run(call + " -o a -t 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
@@ -45,8 +45,34 @@ TEST_F(Grow, WritesMeshesAndATableThatThreadsDoNotChange) {
     EXPECT_EQ(read_mesh(path(std::string("a/") + file)).points.size(), 80U);
   }
   EXPECT_FALSE(exists("a/grown-00013.ply"));
-  EXPECT_EQ(run("grow real -n 2 --nodes 80 --degree 6 --seed 4 -o c -q").exit_code, 0);
+  EXPECT_EQ(run("grow real -k 2 -n 80 --degree 6 --seed 4 -o c -q").exit_code, 0);
   EXPECT_NE(content("a/grown-00001.ply"), content("c/grown-00001.ply"));
+}
+
+TEST_F(Grow, GoesOnAfterAnInterruptionAndInParts) {
+  write_sample(9);
+  const std::string call = "grow real -k 6 -n 60 --degree 6 -o ";
+  const Outcome whole = run(call + "whole");
+  ASSERT_EQ(whole.exit_code, 0) << whole.errors;
+  const std::string table = content("whole/grown.csv");
+  EXPECT_FALSE(exists("whole/call.json")) << "only results stay";
+  for (const std::string part : {"1/2", "2/2"}) {
+    ASSERT_EQ(run(call + "parts -q --shard " + part).exit_code, 0);
+  }
+  const std::string first = content("parts/grown-1-of-2.csv");
+  const std::size_t end = first.find("\r\ngrown-") + 2;
+  fs::resize_file(path("parts/grown-1-of-2.csv"), end + 20);  // as by a kill
+  for (int k = 1; k <= 6; ++k) fs::remove(path("parts/grown-0000" + std::to_string(k) + ".ply"));
+  ASSERT_EQ(run(call + "parts -q --shard 1/2").exit_code, 0);
+  EXPECT_EQ(content("parts/grown-1-of-2.csv"), first);
+  const std::string made = first.substr(end, 11) + ".ply";
+  EXPECT_EQ(content("parts/" + made), content("whole/" + made));
+  const Outcome joined = run(call + "parts");
+  EXPECT_EQ(joined.output, whole.output) << "also of the grains that were made before";
+  EXPECT_EQ(content("parts/grown.csv"), table);
+  EXPECT_FALSE(exists("parts/call.json") || exists("parts/grown-2-of-2.csv"));
+  EXPECT_EQ(run("grow real -k 6 -n 60 --degree 7 -o parts -q").exit_code, 0);
+  EXPECT_NE(content("parts/grown.csv"), table);
 }
 
 TEST_F(Grow, ReadsScansAndLeavesOutWhatHasNoRadius) {
@@ -57,7 +83,7 @@ TEST_F(Grow, ReadsScansAndLeavesOutWhatHasNoRadius) {
                path("scans/s" + std::to_string(k++) + ".stl"));
   }
   write_mesh(test::torus(3.0, 1.0, 24), path("scans/ring.stl"));
-  const Outcome outcome = run("grow scans -n 3 --nodes 60 --degree 6 -o out --coefficients");
+  const Outcome outcome = run("grow scans -k 3 -n 60 --degree 6 -o out --format json");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.errors.find("ring.stl"), std::string::npos) << outcome.errors;
   EXPECT_NE(outcome.output.find("(1 left out)"), std::string::npos) << outcome.output;
@@ -72,11 +98,11 @@ TEST_F(Grow, TakesScansThatRaysDoNotSeeWhole) {
     const IndexedMesh scan = test::bent_grain_mesh(test::bent_grain("C-shape"), 900);
     write_mesh(test::scaled(scan, stretch), path("c" + std::to_string(k) + ".ply"));
   }
-  const std::string call = "grow real 'c*.ply' -n 9 --nodes 150 --degree 12";
+  const std::string call = "grow real 'c*.ply' -k 9 -n 150 --degree 12";
   const Outcome outcome = run(call + " -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("Overhang fraction, mean: "), std::string::npos) << outcome.output;
-  EXPECT_EQ(run(call + " -o series --coefficients -q").exit_code, 0);
+  EXPECT_EQ(run(call + " -o series --format json -q").exit_code, 0);
   std::size_t bent = 0;
   for (int k = 1; k <= 9; ++k) {
     const std::string name = "grown-0000" + std::to_string(k);
@@ -92,14 +118,14 @@ TEST_F(Grow, TakesScansThatRaysDoNotSeeWhole) {
   }
   EXPECT_GE(bent, 3U);
   // The series of a grain with overhangs is a grain of a sample itself.
-  EXPECT_EQ(run("grow series -n 2 --nodes 150 --degree 8 -o again -q").exit_code, 0);
-  EXPECT_EQ(run("templates series -k 3 -n 50 -o chosen -q").exit_code, 0);
+  EXPECT_EQ(run("grow series -k 2 -n 150 --degree 8 -o again -q").exit_code, 0);
+  EXPECT_EQ(run("grow series --templates -k 3 -n 50 -o chosen -q").exit_code, 0);
 }
 
 TEST_F(Grow, FollowsAGivenSizeCurve) {
   write_sample(8);
   std::ofstream(path("sizes.csv")) << "2,0\n4,100\n";
-  ASSERT_EQ(run("grow real -n 9 --nodes 60 --degree 6 -o out --sizes sizes.csv").exit_code, 0);
+  ASSERT_EQ(run("grow real -k 9 -n 60 --degree 6 -o out --sizes sizes.csv").exit_code, 0);
   double least = 9.0, most = 0.0;
   for (int k = 1; k <= 9; ++k) {
     const IndexedMesh mesh = read_mesh(path("out/grown-0000" + std::to_string(k) + ".ply"));

@@ -251,7 +251,7 @@ TEST_F(MachineRefusals, MemoryThatIsRefusedIsASentenceOfEachCommand) {
   const std::vector<Call> calls = {
       {"remesh", "scans/a.ply", "made.ply", "-n", "60", "-q"},
       {"describe", "scans/a.ply", "-q", "--report", "made.json"},
-      {"compare", "scans/a.ply", "scans/a.ply", "-q", "--report", "made.json"},
+      {"describe", "scans/a.ply", "scans/a.ply", "-q", "--report", "made.json"},
       {"create", "ellipsoid", "made.ply", "-n", "3000", "-q"}};
   for (const Call& call : calls) {
     SCOPED_TRACE(call.front());

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Split : public test::ProgramRun {
+class Bodies : public test::ProgramRun {
  protected:
   /// A ball with a pore, a crumb, and a smaller ball; as STL, whose corners are points each.
   void write_sample() {
@@ -32,9 +32,9 @@ class Split : public test::ProgramRun {
   }
 };
 
-TEST_F(Split, WritesAFileABodyAndATable) {
+TEST_F(Bodies, WritesAFileABodyAndATable) {
   write_sample();
-  const Outcome outcome = run("split sample.stl out --smallest 1 --format off");
+  const Outcome outcome = run("extract sample.stl out --smallest 1% --format off");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output, "3 bodies: 2 written, 1 too small, 1 pore in them\n");
   EXPECT_EQ(outcome.errors, "");
@@ -56,7 +56,7 @@ TEST_F(Split, WritesAFileABodyAndATable) {
   EXPECT_EQ(read_mesh(path("out/3.off")).points.size(), test::sphere(3).points.size());
 }
 
-TEST_F(Split, NamesBodiesAndOnlyListsOpenOnes) {
+TEST_F(Bodies, NamesBodiesAndOnlyListsOpenOnes) {
   IndexedMesh open = test::moved(test::sphere(2), 1.0, {9, 0, 0});
   open.triangles.pop_back();
   std::ofstream obj(path("named.obj"));
@@ -73,7 +73,7 @@ TEST_F(Split, NamesBodiesAndOnlyListsOpenOnes) {
     first += mesh.points.size();
   }
   obj.close();
-  const Outcome outcome = run("split named.obj out");
+  const Outcome outcome = run("extract named.obj out");
   EXPECT_EQ(outcome.output, "3 bodies: 2 written, 1 open and only listed\n") << outcome.errors;
   const auto rows = test::csv_records(content("out/bodies.csv"));
   ASSERT_EQ(rows.size(), 4U);
@@ -96,7 +96,7 @@ TEST_F(Split, NamesBodiesAndOnlyListsOpenOnes) {
   EXPECT_NEAR(volume(path("apart/2.ply")), 8.0, 1e-9);
 }
 
-TEST_F(Split, SaysWhichCommandTakesAnotherInput) {
+TEST_F(Bodies, SaysWhichCommandTakesAnotherInput) {
   write_sample();
   fs::create_directory(path("scans"));
   write_mesh(test::sphere(2), path("scans/a.ply"));
@@ -108,13 +108,12 @@ TEST_F(Split, SaysWhichCommandTakesAnotherInput) {
                   {"nothere o.ply", 2, "does not exist"}},
                  {"o.ply"});
   expect_refused("describe", {{"scans", 2, "wscvt batch FOLDER -o OUT"}}, {});
-  expect_refused("extract", {{"sample.stl out", 2, "wscvt split MESH FOLDER"}}, {"out/labels.csv"});
   expect_refused("batch", {{"nothere -o out", 2, "There is no file and no folder"}},
                  {"out/grains.csv"});
   expect_refused("sample", {{"/dev/zero", 1, "is a folder or a device"}}, {});
 }
 
-TEST_F(Split, IsDoneByABatchToo) {
+TEST_F(Bodies, IsDoneByABatchToo) {
   write_sample();
   write_mesh(test::sphere(3), path("alone.ply"));
   const Outcome outcome = run("batch sample.stl alone.ply no.ply -o out -n 60 --parts");
@@ -133,11 +132,11 @@ TEST_F(Split, IsDoneByABatchToo) {
   // Without it the bodies are one input, which is refused with what to call.
   const Outcome whole = run("remesh sample.stl whole.ply -n 60");
   EXPECT_EQ(whole.exit_code, 1);
-  EXPECT_NE(whole.errors.find("wscvt split MESH FOLDER"), std::string::npos) << whole.errors;
+  EXPECT_NE(whole.errors.find("wscvt extract MESH OUT"), std::string::npos) << whole.errors;
 }
 
 // Endings that scans, tables and volumes share are told apart by what they hold, or by being named.
-TEST_F(Split, ABatchTellsMeshesFromTablesAndVolumesInAFolder) {
+TEST_F(Bodies, ABatchTellsMeshesFromTablesAndVolumesInAFolder) {
   fs::create_directory(path("scans"));
   const IndexedMesh body = test::scaled(test::sphere(3), Vector3(3, 4, 5));
   write_mesh(body, path("scans/mesh.vtk"));
@@ -159,26 +158,72 @@ TEST_F(Split, ABatchTellsMeshesFromTablesAndVolumesInAFolder) {
   EXPECT_EQ(content("remesh.msh").rfind("$MeshFormat\n4.1 0 8\n", 0), 0U);
 }
 
-TEST_F(Split, RefusesWhatMakesNoSense) {
+TEST_F(Bodies, AreExtractedOnAfterAnInterruptionAndInParts) {
   write_sample();
-  expect_refused("split",
-                 {{"", 2, "mesh is required"},
-                  {"sample.stl", 2, "folder is required"},
-                  {"sample.xyzzy out", 2, "does not end in"},
+  ASSERT_EQ(run("extract sample.stl out -q").exit_code, 0);
+  const std::string bodies = content("out/bodies.csv");
+  EXPECT_FALSE(exists("out/grains.csv") || exists("out/call.json")) << "only results stay";
+  for (const std::string part : {"1/2", "2/2"}) {
+    ASSERT_EQ(run("extract sample.stl parts -q --shard " + part).exit_code, 0);
+    EXPECT_FALSE(exists("parts/bodies.csv"));
+  }
+  // A row that is cut, as by a kill, is made again, and only this.
+  std::string cut;
+  for (const std::string part : {"1", "2"}) {
+    const std::string table = "parts/grains-" + part + "-of-2.csv";
+    const std::size_t row = content(table).find("sample.stl/2");
+    if (row == std::string::npos) continue;
+    fs::resize_file(path(table), row + 20);
+    cut = part;
+  }
+  ASSERT_NE(cut, "");
+  fs::remove(path("parts/1.ply"));
+  fs::remove(path("parts/2.ply"));
+  ASSERT_EQ(run("extract sample.stl parts -q --shard " + cut + "/2").exit_code, 0);
+  EXPECT_TRUE(exists("parts/2.ply"));
+  ASSERT_EQ(run("extract sample.stl parts -q").exit_code, 0);
+  EXPECT_FALSE(exists("parts/1.ply")) << "it was done";
+  EXPECT_EQ(content("parts/bodies.csv"), bodies);
+  EXPECT_FALSE(exists("parts/grains-1-of-2.csv") || exists("parts/call-2-of-2.json"));
+  // Without parts all is made anew, and with other options too.
+  ASSERT_EQ(run("extract sample.stl parts -q").exit_code, 0);
+  EXPECT_EQ(content("parts/1.ply"), content("out/1.ply"));
+  EXPECT_EQ(run("extract sample.stl out -q --format stl").exit_code, 0);
+}
+
+TEST_F(Bodies, OfTwoMeshesHaveFilesOfTheirOwn) {
+  write_sample();
+  fs::copy_file(path("sample.stl"), path("other.stl"));
+  ASSERT_EQ(run("batch sample.stl other.stl -o out -n 60 -q --parts").exit_code, 0);
+  EXPECT_FALSE(exists("out/1.ply"));
+  EXPECT_NE(content("out/sample-3.ply"), "");
+  EXPECT_EQ(content("out/sample-3.ply"), content("out/other-3.ply"));
+}
+
+TEST_F(Bodies, RefusesWhatMakesNoSense) {
+  write_sample();
+  expect_refused("extract",
+                 {{"", 2, "input is required"},
+                  {"sample.stl", 2, "output is required"},
+                  {"sample.xyzzy out", 2, "ending of a volume"},
                   {"no.stl out", 1, "no.stl"},
-                  {"sample.stl sample.stl", 2, "is the mesh itself"},
+                  {"sample.stl sample.stl", 2, "is the input itself"},
                   {"sample.stl out --format step", 2, "The format of the meshes"},
-                  {"sample.stl out --smallest 101", 2, "0 to 100"}},
+                  {"sample.stl out --smallest 10", 2, "Give a %: --smallest 0.1%"},
+                  {"sample.stl out --smallest 101%", 2, "0 to 100"}},
                  {"out/1.ply"});
   // Nor is a batch begun with a file of no known format.
   expect_refused("batch", {{"sample.stl more.xyzzy -o out", 2, "There is no file and no folder"}},
                  {"out/grains.csv"});
   fs::create_directory(path("in"));
   fs::rename(path("sample.stl"), path("in/1.stl"));
-  expect_refused("split", {{"in/1.stl in --format stl", 2, "is the mesh itself"}},
-                 {"in/bodies.csv", "in/3.stl"});
-  EXPECT_EQ(run("split in/1.stl in --format stl --overwrite").exit_code, 0);
-  EXPECT_TRUE(exists("in/3.stl"));
+  for (const std::string call :
+       {"extract in/1.stl in --format stl", "batch in/1.stl -o in --format stl -n 60 --parts"}) {
+    const Outcome refused = run(call);
+    EXPECT_EQ(refused.exit_code, 2) << call;
+    EXPECT_NE(refused.errors.find("would replace the scan"), std::string::npos) << refused.errors;
+    EXPECT_FALSE(exists("in/3.stl"));
+  }
 }
 
 }  // namespace

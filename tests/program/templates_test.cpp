@@ -29,7 +29,7 @@ class Templates : public test::ProgramRun {
 
 TEST_F(Templates, WritesMeshesTablesAndAScript) {
   write_scans(12);
-  const Outcome outcome = run("templates scans -k 4 -n 60 -o a --seed 2 -t 1");
+  const Outcome outcome = run("grow --templates scans -k 4 -n 60 -o a --seed 2 -t 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("4 templates of 12 grains (0 left out), seed 2."),
             std::string::npos)
@@ -51,10 +51,27 @@ TEST_F(Templates, WritesMeshesTablesAndAScript) {
                            "a/template-01.spheres"}) {
     EXPECT_TRUE(exists(file)) << file;
   }
-  EXPECT_EQ(run("templates scans -k 4 -n 60 -o b --seed 2 -t 2 -q").output, "");
+  EXPECT_EQ(run("grow --templates scans -k 4 -n 60 -o b --seed 2 -t 2 -q").output, "");
   for (const char* file : {"templates.csv", "sizes.csv", "distances.csv", "template-04.ply"}) {
     EXPECT_EQ(content(std::string("a/") + file), content(std::string("b/") + file)) << file;
   }
+}
+
+TEST_F(Templates, AreMadeInPartsToo) {
+  write_scans(3);
+  const std::string call = "grow --templates scans -k 2 -n 50 -q -o ";
+  ASSERT_EQ(run(call + "whole").exit_code, 0);
+  for (const std::string part : {"1/2", "2/2"}) {
+    ASSERT_EQ(run(call + "parts --shard " + part).exit_code, 0);
+    EXPECT_FALSE(exists("parts/liggghts.in"));
+  }
+  fs::remove(path("parts/template-01.ply"));
+  ASSERT_EQ(run(call + "parts").exit_code, 0);
+  EXPECT_FALSE(exists("parts/template-01.ply")) << "it was done";
+  for (const std::string file : {"/templates.csv", "/liggghts.in", "/distances.csv"}) {
+    EXPECT_EQ(content("parts" + file), content("whole" + file)) << file;
+  }
+  EXPECT_FALSE(exists("parts/call.json") || exists("parts/templates-1-of-2.csv"));
 }
 
 TEST_F(Templates, ReadsATableOfShapes) {
@@ -63,7 +80,7 @@ TEST_F(Templates, ReadsATableOfShapes) {
       << "grain,file,scan.volume [length^3],scan.convexity,scan.roundness_wadell\r\n"
          "a,scans/s10.stl,8,0.9,0.5\r\nb,scans/s11.stl,1,0.8,0.3\r\nc,scans/s12.stl,27,0.7,\r\n";
   const Outcome outcome =
-      run("templates shape.csv -k 2 -n 50 -o out --descriptors convexity,roundness_wadell");
+      run("grow --templates shape.csv -k 2 -n 50 -o out --descriptors convexity,roundness_wadell");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("2 templates of 2 grains (1 left out)"), std::string::npos)
       << outcome.output;
@@ -75,8 +92,8 @@ TEST_F(Templates, ReadsATableOfShapes) {
 TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
   write_scans(4);
   ASSERT_EQ(run("batch scans -o batch -n 50 -q").exit_code, 0);
-  ASSERT_EQ(run("templates batch -k 2 -n 300 -o of_batch -q").exit_code, 0);
-  const Outcome outcome = run("templates scans -k 2 -n 300 -o of_scans -q");
+  ASSERT_EQ(run("grow --templates batch -k 2 -n 300 -o of_batch -q").exit_code, 0);
+  const Outcome outcome = run("grow --templates scans -k 2 -n 300 -o of_scans -q");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   for (const char* file : {"template-01.ply", "template-02.ply"}) {
     EXPECT_EQ(content(std::string("of_batch/") + file), content(std::string("of_scans/") + file))
@@ -87,13 +104,15 @@ TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
 TEST_F(Templates, RefusesWrongCalls) {
   write_scans(3);
   std::ofstream(path("same.csv")) << "file,volume,convexity\na.ply,1,0.9\nb.ply,2,0.9\n";
-  expect_refused("templates",
+  expect_refused("grow --templates",
                  {{"scans -k 4 -o out", 1, "3 grains"},
                   {"scans/s10.stl -k 1 -o out", 1, "one grain, so there is nothing to choose"},
                   {"scans/s10.stl -o out", 1, "Give at least two grains"},
-                  {"scans -k 0 -o out", 2, "templates"},
+                  {"scans -k 0 -o out", 2, "number of grains"},
                   {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},
+                  {"scans -k 1001 -o out", 2, "templates"},
+                  {"scans -k 2 -o out --sizes s.csv", 2, "Leave out --sizes"},
                   {"same.csv -k 1 -o out --descriptors convexity", 1, "\"convexity\" is equal"},
                   {"none.csv -k 2 -o out", 1, "none.csv"}},
                  {"out"});

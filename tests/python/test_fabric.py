@@ -27,9 +27,9 @@ def test_fabric_has_the_numbers_of_the_program(tmp_path):
     scan = (scan + np.roll(scan, 1, 0) + np.roll(scan, 1, 1) + np.roll(scan, 1, 2)) / 4
     np.save(tmp_path / "labels.npy", labels)
     np.save(tmp_path / "scan.npy", scan)
-    for given, call in ((None, []), (scan, ["--scan", "scan.npy"])):
+    for given, call in ((None, []), (scan, ["scan.npy"])):
         result = wscvt.fabric(labels, (0.5, 0.25, 1.0), scan=given)
-        subprocess.run([os.environ["WSCVT_PROGRAM"], "fabric", "labels.npy", "-o", "out", "-q", "--voxel-size",
+        subprocess.run([os.environ["WSCVT_PROGRAM"], "describe", "labels.npy", "-o", "out", "-q", "--voxel-size",
                         "0.5,0.25,1"] + call, cwd=tmp_path, check=True)
         for name, table in (("contacts", "contacts.csv"), ("grains", "grains.csv")):
             with open(tmp_path / "out" / table, newline="") as file:

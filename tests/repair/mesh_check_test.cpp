@@ -628,7 +628,7 @@ TEST(MeshCheck, DropsFlapsAndWalls) {
   IndexedMesh wall = joined(box(1, 1, 6), moved(box(1, 1, 6), 1.0, {0, 0, 6}));
   wall.triangles.erase(wall.triangles.begin() + 2,
                        wall.triangles.begin() + 4);  // one of its copies
-  expect_mentions(refusal(wall), {"2 bodies with common walls", "50 %", "wscvt split MESH FOLDER"});
+  expect_mentions(refusal(wall), {"2 bodies with common walls", "50 %", "wscvt extract MESH OUT"});
   for (Vector3& p : wall.points) p.z() = p.z() > 6.0 ? 3.25 : p.z();
   checked = check(wall);
   EXPECT_EQ(checked.report.welded_vertices, 4U);

@@ -50,7 +50,7 @@ make_all() {  # folder
   for nodes in 150 200; do
     wscvt batch "$meshes" -o $nodes -q -n $nodes
   done
-  wscvt grow 150 200 -o grown -q -n 4 --nodes 100 --degree 8
+  wscvt grow 150 200 -o grown -q -k 4 -n 100 --degree 8
   wscvt sample 150 -q --report sample.json
   wscvt create superellipsoid rod.stl --semi-axes 3 1 0.5 --polar-exponent 0.7 -q -n 200
   cp "$work/scan.tif" .

@@ -264,7 +264,7 @@ def extract(labels, voxel_size=1.0, **options):
 
 
 def fabric(labels, voxel_size=1.0, *, scan=None, **options):
-    """Measures the contacts of a volume of labels, as "wscvt fabric" does, and returns a dictionary.
+    """Measures the contacts of a volume of labels, as "wscvt describe" does, and returns a dictionary.
 
     result = wscvt.fabric(tifffile.imread("labels.tif"), 0.012, scan=tifffile.imread("scan.tif"))
     contacts = result["contacts"]

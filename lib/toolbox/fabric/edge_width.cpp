@@ -164,8 +164,7 @@ double edge_width(LabelVolume& labels, Label background, LabelVolume& scan,
   if (profiles.kept().size() < fewest_profiles) {
     refuse("Only " + std::to_string(profiles.kept().size()) +
            " lines of voxels cross the edge of a grain with " + std::to_string(side) +
-           " voxels on both sides, too few to measure the blur of the scan. Leave " +
-           mention("scan") + " out.");
+           " voxels on both sides, too few to measure the blur of the scan. Leave the scan out.");
   }
   return width_of(profiles.kept());
 }

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <system_error>
 #include <utility>
 
 #include "toolbox/report/sample_table.h"
+#include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
@@ -24,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// Returns the name of a grain without folders and endings.
-std::string word_of(const std::string& grain) {
-  fs::path name = fs::path(grain).filename();
-  if (ending_of(grain) == ".gz") name = name.stem();
+/// Returns the name of a file without folders and endings.
+std::string stem_of(const std::string& file) {
+  fs::path name = fs::path(file).filename();
+  if (ending_of(file) == ".gz") name = name.stem();
   return name.stem().string();
 }
 
@@ -41,9 +42,12 @@ void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
       refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be written to \"" +
              other->first + "\". Use two batches, or rename one of them.");
     }
-    bool replaces_scan = same_file(other->first, grain);
+    const auto is_scan = [&](const std::string& file) {
+      return same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
+    };
+    bool replaces_scan = is_scan(other->first);
     for (const JobFiles& files : more) {
-      replaces_scan = replaces_scan || same_file(folder.file_of(grain, files), grain);
+      replaces_scan = replaces_scan || is_scan(folder.file_of(grain, files));
     }
     if (replaces_scan) {
       refuse("The files of \"" + grain + "\" would replace the scan. Give another folder with " +
@@ -53,9 +57,9 @@ void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
 }
 
 /// Whether the folder has tables of this part, with or without levels.
-bool is_begun(const JobFolder& folder) {
+bool is_begun(const JobFolder& folder, const std::string& table_name) {
   std::error_code ignored;
-  const fs::path table = folder.table();
+  const fs::path table = folder.file(table_name, ".csv");
   if (fs::exists(table, ignored)) return true;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder.path(), ignored)) {
     const std::string name = entry.path().filename().string();
@@ -66,21 +70,106 @@ bool is_begun(const JobFolder& folder) {
   return false;
 }
 
-/// Writes the options of a job. Throws Error if the job is begun with other options.
-void check_call(const JobFolder& folder, const std::string& call) {
+/// Returns whether the folder has the options of a job. Throws Error if it is kept with others.
+bool has_call(const JobFolder& folder, const GrainJob& job) {
   const std::string path = folder.file("call", ".json");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
   const std::string before((std::istreambuf_iterator<char>(file)), {});
-  if (before == call) return;
-  if (is_begun(folder)) {
-    refuse("The folder contains a batch with other options or of another version: see \"" + path +
+  if (before == job.call) return true;
+  if (job.is_kept && is_begun(folder, job.tables.front().name)) {
+    refuse("The folder is of a call with other options or of another version: see \"" + path +
            "\". Use the options of that file, or give another folder with " + mention("output") +
            ".");
   }
-  write_file(path, call);
+  return false;
 }
+
+/// The rows that parts of a sample have left in the folder of the whole.
+class PartRows {
+ public:
+  /// Throws Error if a part is of a job with other options.
+  PartRows(const GrainJob& job, const std::vector<JobFolder>& folders)
+      : tables_(folders.size() * job.tables.size()) {
+    if (job.shard.count > 1) return;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(job.folder, ignored)) {
+      Shard part;
+      if (std::sscanf(entry.path().filename().string().c_str(), "call-%d-of-%d.json", &part.index,
+                      &part.count) != 2 ||
+          !has_call(JobFolder(job.folder, job.ending, part), job)) {
+        continue;
+      }
+      calls_.push_back(entry.path());
+      std::size_t column = 0;
+      for (const JobFolder& level : folders) {
+        const JobFolder folder(level.path(), job.ending, part);
+        for (const JobTable& table : job.tables) {
+          add(folder.file(table.name, ".csv"), table.header, column++);
+        }
+      }
+    }
+  }
+
+  /// Removes the tables and calls of the parts.
+  void remove() const {
+    std::error_code ignored;
+    for (const std::string& file : files_) fs::remove(file, ignored);
+    for (const fs::path& call : calls_) fs::remove(call, ignored);
+  }
+
+  /// Whether a part has made the grain.
+  bool has(const std::string& grain) const { return places_of(grain) != nullptr; }
+
+  /// Returns the row of a grain that a part has made.
+  GrainRow row(const std::string& grain) const {
+    GrainRow row;
+    for (const Place& place : *places_of(grain)) {
+      std::ifstream file(files_[place.file], std::ios::binary);
+      std::string record(place.size, '\0');
+      file.seekg(static_cast<std::streamoff>(place.offset));
+      file.read(record.data(), static_cast<std::streamsize>(record.size()));
+      row.records.push_back(std::move(record));
+    }
+    row.error = failure_in(row.records.front());
+    return row;
+  }
+
+ private:
+  /// Of a record in a file; not found if its size is 0.
+  struct Place {
+    std::size_t file;
+    std::size_t offset;
+    std::size_t size;
+  };
+
+  void add(const std::string& path, const std::string& header, std::size_t column) {
+    std::ifstream file(path, std::ios::binary);
+    CsvReader reader(file);
+    std::vector<std::string> fields;
+    if (!reader.next(fields) || reader.text() != header) return;
+    files_.push_back(path);
+    for (std::size_t offset = reader.size(); reader.next(fields); offset = reader.size()) {
+      std::vector<Place>& places = places_[fields.front()];
+      places.resize(tables_);
+      places[column] = {files_.size() - 1, offset, reader.text().size()};
+    }
+  }
+
+  const std::vector<Place>* places_of(const std::string& grain) const {
+    const auto found = places_.find(csv_field(grain));
+    if (found == places_.end()) return nullptr;
+    const bool is_whole = std::all_of(found->second.begin(), found->second.end(),
+                                      [](const Place& place) { return place.size > 0; });
+    return is_whole ? &found->second : nullptr;
+  }
+
+  std::size_t tables_;
+  std::vector<std::string> files_;
+  std::vector<fs::path> calls_;
+  std::map<std::string, std::vector<Place>> places_;
+};
 
 /// The tables of all levels.
 class JobTables {
@@ -138,6 +227,7 @@ GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, Grai
       [&]() -> GrainRow {
         GrainAtWork grain{name, grains.read(k, job.reads_pictures, execution), folders, execution,
                           begin};
+        if (!grain.scan.refused.empty() && !job.takes_refused) refuse(grain.scan.refused);
         return {job.make(grain)};
       },
       [&](const std::string& error) {
@@ -154,11 +244,19 @@ GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, Grai
 
 }  // namespace
 
-JobFolder::JobFolder(fs::path folder, const std::string& ending, const Shard& shard)
-    : folder_(std::move(folder)), ending_("." + ending) {
+JobFolder::JobFolder(fs::path folder, const std::string& ending, const Shard& shard,
+                     bool long_names)
+    : folder_(std::move(folder)), ending_("." + ending), long_names_(long_names) {
   if (shard.count > 1) {
     part_ = "-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count);
   }
+}
+
+std::string JobFolder::word_of(const std::string& grain) const {
+  const fs::path name(grain);
+  // Only a label or a body has no ending.
+  const bool is_long = long_names_ && !name.filename().has_extension() && name.has_parent_path();
+  return (is_long ? stem_of(name.parent_path().string()) + "-" : "") + stem_of(grain);
 }
 
 std::string JobFolder::name_of(const std::string& grain) const { return word_of(grain) + ending_; }
@@ -182,9 +280,11 @@ double GrainAtWork::seconds() const {
 std::vector<JobFolder> folders_of(const GrainJob& job) {
   std::vector<JobFolder> folders;
   for (const std::string& level : job.levels) {
-    folders.emplace_back(fs::path(job.folder) / level, job.ending, job.shard);
+    folders.emplace_back(fs::path(job.folder) / level, job.ending, job.shard, job.long_names);
   }
-  if (folders.empty()) folders.emplace_back(job.folder, job.ending, job.shard);
+  if (folders.empty()) {
+    folders.emplace_back(job.folder, job.ending, job.shard, job.long_names);
+  }
   return folders;
 }
 
@@ -196,7 +296,13 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   for (const JobFolder& folder : folders) check_files(folder, job.more_files, names);
   std::error_code ignored;  // the first write into the folder reports it
   fs::create_directories(whole.path(), ignored);
-  check_call(whole, job.call);
+  const PartRows parts(job, folders);
+  if (!has_call(whole, job)) {
+    for (const JobTable& table : job.tables) {
+      if (!job.is_kept) fs::remove(whole.file(table.name, ".csv"), ignored);
+    }
+    write_file(whole.file("call", ".json"), job.call);
+  }
   for (const JobFolder& folder : folders) {
     fs::create_directories(folder.path(), ignored);
     for (const JobFiles& files : job.more_files) {
@@ -207,13 +313,15 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   remove_partial_file(whole.file("call", ".json"));
   remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {
-    const std::string census =
-        grains.census([&](const std::string& grain) { return folders.front().name_of(grain); });
+    const std::string census = grains.census(
+        [&](const std::string& grain) -> MadeGrain { return {folders.front().name_of(grain)}; });
     // Equal for every part of the sample.
     if (!census.empty()) write_file((fs::path(job.folder) / "labels.csv").string(), census);
   }
-  std::vector<std::size_t> wanted(names.size() - tables.rows());
-  std::iota(wanted.begin(), wanted.end(), tables.rows());
+  std::vector<std::size_t> wanted;
+  for (std::size_t k = tables.rows(); k < names.size(); ++k) {
+    if (!parts.has(names[k])) wanted.push_back(k);
+  }
   grains.want(wanted);
   GrainRun run;
   run.first = tables.rows();
@@ -222,10 +330,15 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   run.when_stopped = "The same call continues from there.";
   run.name = [&](std::size_t k) { return names[k]; };
   run.work = [&](std::size_t k, const Execution& execution) {
-    return row_of(job, folders, grains, k, execution);
+    return parts.has(names[k]) ? parts.row(names[k]) : row_of(job, folders, grains, k, execution);
   };
   run.take = [&](std::size_t, const GrainRow& row) { tables.append(row.records); };
-  return run_grains(run, host);
+  JobEnd end = run_grains(run, host);
+  if (!job.is_kept && job.shard.count == 1 && !end.was_cancelled()) {
+    parts.remove();
+    fs::remove(whole.file("call", ".json"), ignored);
+  }
+  return end;
 }
 
 }  // namespace wscvt

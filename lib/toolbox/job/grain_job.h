@@ -24,8 +24,10 @@ struct JobFiles {
 /// of a part of a sample end in "-I-of-N".
 class JobFolder {
  public:
-  /// `ending` of the files of grains, without the point.
-  JobFolder(std::filesystem::path folder, const std::string& ending, const Shard& shard);
+  /// `ending` of the files of grains, without the point. With `long_names`, the file of a label or
+  /// a body is named after its volume or mesh too: "sample-12".
+  JobFolder(std::filesystem::path folder, const std::string& ending, const Shard& shard,
+            bool long_names = false);
 
   std::string path() const { return folder_.string(); }
   /// Path of the file of a grain.
@@ -38,9 +40,12 @@ class JobFolder {
   std::string table() const { return file("grains", ".csv"); }
 
  private:
+  std::string word_of(const std::string& grain) const;
+
   std::filesystem::path folder_;
   std::string ending_;  ///< with the point
   std::string part_;
+  bool long_names_;
 };
 
 /// A grain of a job, at work.
@@ -63,7 +68,8 @@ struct JobTable {
 
 /// Work on each grain of a source: files for each grain, and tables with a row for each grain. The
 /// bytes of the files do not depend on the number of threads. A job that was interrupted continues
-/// after the last grain of its tables.
+/// after the last grain of its tables. The job of a whole sample takes over the rows of its parts,
+/// if they are in its folder, and makes only the other grains.
 struct GrainJob {
   std::string folder;
   Shard shard;         ///< of which the source has the grains
@@ -75,6 +81,11 @@ struct GrainJob {
   std::vector<JobTable> tables;  ///< of each level; the first is "grains"
   bool has_census = false;       ///< writes GrainSource::census to labels.csv
   bool reads_pictures = false;   ///< see GrainSource::read
+  bool takes_refused = false;    ///< makes also what is refused, see GrainScan
+  /// A job that is done stays done, and its folder takes no other options. False: when it is done,
+  /// only its results stay, so that a call makes them anew.
+  bool is_kept = true;
+  bool long_names = false;  ///< see JobFolder; for several GrainSource::volumes
 
   /// Writes the files of a grain and returns its records: of each level, each table. Called on
   /// several threads at once. What it throws is the failure of the grain, see row_or_failure.
@@ -89,7 +100,7 @@ struct GrainJob {
 std::vector<JobFolder> folders_of(const GrainJob& job);
 
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
-/// replace each other or a scan, or if the folder is of a job with other options or other grains.
+/// replace each other or a scan, or if the folder is of a kept job with other options or grains.
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.
 JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host);
 

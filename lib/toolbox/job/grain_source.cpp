@@ -39,6 +39,24 @@ GrainScan MeshGrains::read(std::size_t grain, bool with_pictures, const Executio
   return {std::move(file.mesh), std::move(file.attributes), std::move(file.warnings)};
 }
 
+NamedGrains::NamedGrains(std::string prefix, std::size_t count, std::size_t digits, Read read)
+    : prefix_(std::move(prefix)),
+      count_(count),
+      digits_(std::max(digits, std::to_string(count).size())),
+      read_(std::move(read)) {}
+
+std::string NamedGrains::name(std::size_t grain) const {
+  const std::string number = std::to_string(grain + 1);
+  return prefix_ + std::string(digits_ - number.size(), '0') + number;
+}
+
+GrainScan NamedGrains::read(std::size_t grain, bool /*with_pictures*/, const Execution& execution) {
+  GrainScan scan;
+  if (read_) scan.mesh = read_(grain, execution);
+  scan.place = grain;
+  return scan;
+}
+
 void JoinedGrains::add(std::unique_ptr<GrainSource> source) {
   for (std::size_t grain = 0; grain < source->size(); ++grain) {
     if (is_of(shard_, source->name(grain))) places_.push_back({sources_.size(), grain});
@@ -63,10 +81,10 @@ GrainScan JoinedGrains::read(std::size_t grain, bool with_pictures, const Execut
   return sources_[place.source]->read(place.grain, with_pictures, execution);
 }
 
-std::string JoinedGrains::census(const FileOf& file_of) const {
+std::string JoinedGrains::census(const MadeOf& made_of) const {
   std::string joined;
   for (const auto& source : sources_) {
-    const std::string table = source->census(file_of);
+    const std::string table = source->census(made_of);
     // One header for all.
     joined += joined.empty() || table.empty() ? table : table.substr(table.find("\r\n") + 2);
   }
@@ -77,6 +95,12 @@ double JoinedGrains::left_out() const {
   double largest = 0.0;
   for (const auto& source : sources_) largest = std::max(largest, source->left_out());
   return largest;
+}
+
+std::size_t JoinedGrains::volumes() const {
+  std::size_t count = 0;
+  for (const auto& source : sources_) count += source->volumes();
+  return count;
 }
 
 }  // namespace wscvt

@@ -23,13 +23,24 @@ struct GrainScan {
   MeshAttributes attributes = {};          ///< of a file; empty for a body or a label
   std::vector<std::string> warnings = {};  ///< about reading it
   double voxel_size = 0.0;                 ///< edge of its cubic voxels, length; 0: not known
+  std::size_t place = 0;                   ///< in its source; of NamedGrains
+  Sentence refused = {};                   ///< why there is no mesh; else empty
+  /// Returns its record in the census of its source, for the file that is made of it; empty if
+  /// there is no census.
+  std::function<std::string(const std::string& file)> record = {};
+};
+
+/// What a job has made of a grain: its file, and its record in the census or the error.
+struct MadeGrain {
+  std::string file;
+  std::string record = {};
+  std::string error = {};
 };
 
 /// Grains in a fixed order, each with a name of its own.
 class GrainSource {
  public:
-  /// Returns the output file of a grain.
-  using FileOf = std::function<std::string(const std::string& grain)>;
+  using MadeOf = std::function<MadeGrain(const std::string& grain)>;
 
   GrainSource() = default;
   GrainSource(const GrainSource&) = delete;
@@ -44,16 +55,39 @@ class GrainSource {
 
   /// Reads a grain. Each wanted grain may be read once, on several threads at once.
   /// `with_pictures`: also reads the pictures of a file's texture. Throws Error if the grain cannot
-  /// be read.
+  /// be read; a source with a census may say that in GrainScan::refused.
   virtual GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) = 0;
 
   /// Returns a table of all that the source contains, grains or not; empty if all are grains.
-  virtual std::string census(const FileOf& file_of) const {
-    return static_cast<void>(file_of), std::string();
+  virtual std::string census(const MadeOf& made_of) const {
+    return static_cast<void>(made_of), std::string();
   }
 
   /// Returns the fraction of the source that belongs to grains but is in none.
   virtual double left_out() const { return 0.0; }
+
+  /// Returns the number of volumes and meshes whose labels and bodies are grains.
+  virtual std::size_t volumes() const { return 0; }
+};
+
+/// Grains that a job makes, with the names PREFIX00001, PREFIX00002, ...
+class NamedGrains : public GrainSource {
+ public:
+  using Read = std::function<IndexedMesh(std::size_t grain, const Execution& execution)>;
+
+  /// The numbers have as many digits as `count`, but at least `digits`. Without `read`, a scan has
+  /// only its place.
+  NamedGrains(std::string prefix, std::size_t count, std::size_t digits, Read read = {});
+
+  std::size_t size() const override { return count_; }
+  std::string name(std::size_t grain) const override;
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+
+ private:
+  std::string prefix_;
+  std::size_t count_;
+  std::size_t digits_;
+  Read read_;
 };
 
 /// The grains of a mesh file: itself, or its bodies.
@@ -71,6 +105,7 @@ class MeshGrains : public GrainSource {
   std::string name(std::size_t grain) const override;
   void want(const std::vector<std::size_t>& grains) override;
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+  std::size_t volumes() const override { return is_file() ? 0 : 1; }
 
   /// Several bodies; else an empty list.
   const MeshBodies& bodies() const { return bodies_; }
@@ -93,8 +128,9 @@ class JoinedGrains : public GrainSource {
   std::string name(std::size_t grain) const override;
   void want(const std::vector<std::size_t>& grains) override;
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
-  std::string census(const FileOf& file_of) const override;
+  std::string census(const MadeOf& made_of) const override;
   double left_out() const override;  ///< the largest of the sources
+  std::size_t volumes() const override;
 
  private:
   /// A grain of a source.

@@ -5,21 +5,25 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <utility>
 
 #include "toolbox/exchange/template_files.h"
-#include "toolbox/job/grain_files.h"
 #include "toolbox/sample/grain_grower.h"
+#include "toolbox/sample/grain_table.h"
 #include "toolbox/sample/grown_mesh.h"
 #include "toolbox/sample/nearest_grain.h"
 #include "toolbox/sample/sample_comparison.h"
 #include "toolbox/sample/sample_grain.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/overhangs.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 
@@ -45,18 +49,12 @@ constexpr const char* table_heading[] = {"grain",
 /// Key of the random order of sizes, above every grain's number.
 constexpr std::uint64_t size_key = std::uint64_t{1} << 61;
 
-/// Descriptors of the grains, for the summary.
-struct GrownNumbers {
-  std::vector<double> sphericity, elongation, flatness, convexity;
+/// Descriptors of the real grains, for the summary.
+struct RealNumbers {
+  std::vector<double> sphericity, elongation, flatness, convexity, overhangs;
 
-  explicit GrownNumbers(std::size_t count)
-      : sphericity(count), elongation(count), flatness(count), convexity(count) {}
-  void set(std::size_t k, const QuickShape& shape) {
-    sphericity[k] = shape.shape.sphericity;
-    elongation[k] = shape.form.zingg_elongation;
-    flatness[k] = shape.form.zingg_flatness;
-    convexity[k] = shape.convexity;
-  }
+  explicit RealNumbers(std::size_t count)
+      : sphericity(count), elongation(count), flatness(count), convexity(count), overhangs(count) {}
 };
 
 /// All data to make and measure a grain.
@@ -66,22 +64,9 @@ struct Growing {
   GrainGrower grower;
   GrainSearch search;
   GrownMeshes meshes;
-  GrownNumbers numbers;
-  std::vector<double> distances;  ///< to the nearest real grain
-  std::vector<double> collages;
-  std::vector<int> redraws;
-  std::vector<double> overhangs;
 };
 
-std::string name_of(const GrowJob& job, std::size_t k) {
-  const std::size_t digits = std::max<std::size_t>(5, std::to_string(job.grains).size());
-  const std::string number = std::to_string(k + 1);
-  return "grown-" + std::string(digits - number.size(), '0') + number;
-}
-
-std::string file_of(const GrowJob& job, std::size_t k) {
-  return name_of(job, k) + "." + (job.coefficients ? "json" : job.format);
-}
+bool writes_coefficients(const GrowJob& job) { return job.format == "json"; }
 
 std::string short_name(const std::string& file) { return fs::path(file).filename().string(); }
 
@@ -101,8 +86,12 @@ void write_coefficients(const std::string& path, const GrownGrain& grain) {
   write_harmonics(path, HarmonicSurface(std::move(coefficients)));
 }
 
-GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) {
+/// Writes the file of a grain and returns its record.
+std::string grown_record(const Growing& growing, const GrainAtWork& at_work) {
   const GrowJob& job = growing.job;
+  const Execution& execution = at_work.execution;
+  const JobFolder& folder = at_work.folders.front();
+  const std::size_t k = at_work.scan.place;
   GrownBody body = grow_body(growing.grower, growing.meshes, k);
   GrownGrain& grain = body.grain;
   if (job.sizes) {
@@ -117,43 +106,39 @@ GrainRow grown_row(Growing& growing, std::size_t k, const Execution& execution) 
   const QuickShape shape = quick_shape(body.mesh, execution);
   const double overhang = overhang_of(grain.offset, body.mesh, shape, execution);
   const NearestGrain nearest = growing.search.nearest(grain.radial);
-  const std::string path = (fs::path(job.folder) / file_of(job, k)).string();
-  if (job.coefficients) {
+  const std::string path = folder.file_of(at_work.name);
+  if (writes_coefficients(job)) {
     write_coefficients(path, grain);
   } else {
     write_mesh(body.mesh, path);
   }
-  growing.overhangs[k] = overhang;
-  growing.numbers.set(k, shape);
-  growing.distances[k] = nearest.distance;
-  growing.collages[k] = grain.collage;
-  growing.redraws[k] = grain.redraws;
   std::string donors;
   for (const std::size_t donor : grain.donors) {
     donors += (donors.empty() ? "" : ";") + short_name(growing.files[donor]);
   }
   const double cube = grain.radius * grain.radius * grain.radius;
-  return {{csv_record(
-      {name_of(job, k), file_of(job, k), format_exact(2.0 * grain.radius),
+  return csv_record(
+      {at_work.name, folder.name_of(at_work.name), format_exact(2.0 * grain.radius),
        format_exact(4.0 * pi / 3.0 * cube), format_exact(shape.shape.sphericity),
        format_exact(shape.form.zingg_elongation), format_exact(shape.form.zingg_flatness),
        format_exact(shape.convexity), format_exact(100.0 * overhang), donors,
        short_name(growing.files[nearest.grain]), format_exact(100.0 * nearest.distance),
-       format_exact(100.0 * grain.collage), std::to_string(grain.redraws)})}};
+       format_exact(100.0 * grain.collage), std::to_string(grain.redraws)});
 }
 
-GrownNumbers numbers_of_sample(const Growing& growing, std::vector<double>& overhangs,
-                               const Execution& execution) {
+RealNumbers numbers_of_sample(const Growing& growing, const Execution& execution) {
   const std::vector<SampleGrain>& sample = growing.grower.sample();
-  GrownNumbers numbers(sample.size());
-  overhangs.resize(sample.size());
+  RealNumbers numbers(sample.size());
   execution.parallel_for(sample.size(), 8, [&](std::size_t begin, std::size_t end) {
     const Execution one_thread(1);
     for (std::size_t k = begin; k < end; ++k) {
       const IndexedMesh mesh = growing.meshes.mesh(sample[k].radial, 1.0, sample[k].radial_offset);
       const QuickShape shape = quick_shape(mesh, one_thread);
-      numbers.set(k, shape);
-      overhangs[k] = overhang_of(sample[k].radial_offset, mesh, shape, one_thread);
+      numbers.sphericity[k] = shape.shape.sphericity;
+      numbers.elongation[k] = shape.form.zingg_elongation;
+      numbers.flatness[k] = shape.form.zingg_flatness;
+      numbers.convexity[k] = shape.convexity;
+      numbers.overhangs[k] = overhang_of(sample[k].radial_offset, mesh, shape, one_thread);
     }
   });
   return numbers;
@@ -163,23 +148,27 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-std::string percent(double fraction) { return format_number(100.0 * fraction, 3) + " %"; }
+std::string percent(double value) { return format_number(value, 3) + " %"; }
 
-std::vector<std::string> lines_of(const Growing& growing, std::size_t left_out,
-                                  const Execution& execution) {
+/// Returns the lines of a log, from the table of the grown grains.
+std::vector<std::string> lines_of(const Growing& growing, const GrainTable& table,
+                                  std::size_t left_out, const Execution& execution) {
   const std::size_t real = growing.grower.sample().size();
-  const std::size_t grown = growing.distances.size();
-  std::vector<double> overhangs;
-  const GrownNumbers sample = numbers_of_sample(growing, overhangs, execution);
-  const GrownNumbers& made = growing.numbers;
-  const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return format_number(distance_between(Distribution(a), Distribution(b)).kolmogorov, 2);
+  const std::size_t grown = table.grains.size();
+  const RealNumbers sample = numbers_of_sample(growing, execution);
+  const auto column = [&](const char* name) {
+    const auto values = table.values.col(static_cast<Eigen::Index>(table.index_of(name)));
+    return std::vector<double>(values.begin(), values.end());
   };
-  std::vector<double> nearest = growing.distances;
+  const auto distance = [&](const char* name, const std::vector<double>& of_sample) {
+    return format_number(
+        distance_between(Distribution(column(name)), Distribution(of_sample)).kolmogorov, 2);
+  };
+  std::vector<double> nearest = column("nearest_distance");
   std::sort(nearest.begin(), nearest.end());
+  const std::vector<double> redraws = column("redraws");
   const auto redrawn =
-      growing.redraws.size() -
-      static_cast<std::size_t>(std::count(growing.redraws.begin(), growing.redraws.end(), 0));
+      redraws.size() - static_cast<std::size_t>(std::count(redraws.begin(), redraws.end(), 0.0));
   // Two samples of one population have a larger distance once in twenty times.
   const double by_chance =
       1.36 * std::sqrt(1.0 / static_cast<double>(real) + 1.0 / static_cast<double>(grown));
@@ -194,62 +183,78 @@ std::vector<std::string> lines_of(const Growing& growing, std::size_t left_out,
       "Kolmogorov-Smirnov distance to the sample (" + format_number(by_chance, 2) +
           " by chance in 1 of 20 samples):"};
   for (const std::string& line :
-       aligned_lines({{"  sphericity", distance(made.sphericity, sample.sphericity)},
-                      {"  I/L of inertia", distance(made.elongation, sample.elongation)},
-                      {"  S/I of inertia", distance(made.flatness, sample.flatness)},
-                      {"  convexity", distance(made.convexity, sample.convexity)}})) {
+       aligned_lines({{"  sphericity", distance("sphericity", sample.sphericity)},
+                      {"  I/L of inertia", distance("inertia_elongation", sample.elongation)},
+                      {"  S/I of inertia", distance("inertia_flatness", sample.flatness)},
+                      {"  convexity", distance("convexity", sample.convexity)}})) {
     lines.push_back(line);
   }
   lines.push_back("Distance to the nearest real grain, rms of the radius: median " +
                   percent(nearest[grown / 2]) + ", smallest " + percent(nearest.front()) + ".");
   lines.push_back("Usual distance between real grains: " +
-                  percent(growing.search.usual_distance(execution)) + ".");
-  if (mean(overhangs) > 0.0) {
-    lines.push_back("Overhang fraction, mean: " + percent(mean(growing.overhangs)) +
-                    ", in the sample " + percent(mean(overhangs)) + ".");
+                  percent(100.0 * growing.search.usual_distance(execution)) + ".");
+  if (mean(sample.overhangs) > 0.0) {
+    lines.push_back("Overhang fraction, mean: " + percent(mean(column("overhang"))) +
+                    ", in the sample " + percent(100.0 * mean(sample.overhangs)) + ".");
   }
   lines.push_back("Collage, caps of 40 degrees that follow one donor: " +
-                  percent(mean(growing.collages)) + ".");
+                  percent(mean(column("collage"))) + ".");
   return lines;
+}
+
+GrainJob job_of(const GrowJob& options, const Growing& growing) {
+  Json call = {{"format", "wscvt-grow"},           {"made_by", made_by()},
+               {"meshes", options.format},         {"count", options.grains},
+               {"nodes", options.nodes},           {"degree", options.degree},
+               {"donors", options.options.donors}, {"seed", options.options.seed},
+               {"sample", growing.files}};
+  for (int k = 0; options.sizes && k <= 10; ++k) {
+    call["sizes"].push_back(options.sizes->diameter(0.1 * k));
+  }
+  GrainJob job;
+  job.folder = options.folder;
+  job.shard = options.shard;
+  job.ending = options.format;
+  job.call = json_document(call);
+  job.tables = {{"grown", csv_record({std::begin(table_heading), std::end(table_heading)})}};
+  job.is_kept = false;
+  job.make = [&growing](GrainAtWork& grain) -> std::vector<std::string> {
+    return {grown_record(growing, grain)};
+  };
+  job.failed = [](const std::string& grain, const std::string& error,
+                  double) -> std::vector<std::string> {
+    throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
+  };
+  return job;
 }
 
 }  // namespace
 
 void check_job(const GrowJob& job) {
   require_in_range(job.degree, sample_degree_option);
-  if (!job.coefficients) check_format(job.format);
+  if (!writes_coefficients(job)) check_format(job.format);
 }
 
-GrownSample grow_grains(const GrowJob& job, RealGrains real, const SampleGrids& grids,
+GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
                         const JobHost& host) {
   const Execution execution(host.threads);
-  const auto count = static_cast<std::size_t>(job.grains);
   GrainSearch search(real.grains);
-  Growing growing{job,
-                  std::move(real.files),
-                  GrainGrower(std::move(real.grains), grids, job.options),
-                  std::move(search),
-                  GrownMeshes(job.nodes, execution),
-                  GrownNumbers(count),
-                  std::vector<double>(count),
-                  std::vector<double>(count),
-                  std::vector<int>(count),
-                  std::vector<double>(count)};
-  std::string rows = csv_record({std::begin(table_heading), std::end(table_heading)});
-  GrainRun all;
-  all.count = count;
-  all.when_stopped = "No table was written. The grains that were made are in the folder.";
-  all.name = [&](std::size_t k) { return name_of(job, k); };
-  all.work = [&](std::size_t k, const Execution& one) { return grown_row(growing, k, one); };
-  all.take = [&](std::size_t, const GrainRow& row) { rows += row.records.front(); };
+  const Growing growing{options, std::move(real.files),
+                        GrainGrower(std::move(real.grains), grids, options.options),
+                        std::move(search), GrownMeshes(options.nodes, execution)};
+  JoinedGrains grains(options.shard);
+  grains.add(std::make_unique<NamedGrains>("grown-", static_cast<std::size_t>(options.grains), 5));
+  const GrainJob job = job_of(options, growing);
   GrownSample grown;
-  grown.end = run_grains(all, host);
+  grown.end = run_job(job, grains, host);
   if (grown.end.was_cancelled()) return grown;
-  write_file((fs::path(job.folder) / "grown.csv").string(), rows);
-  if (!job.coefficients && job.format == "ply") {
-    write_file((fs::path(job.folder) / "yade_packing.py").string(), yade_packing_script());
+  const JobFolder folder = folders_of(job).front();
+  if (options.format == "ply") {
+    write_file((fs::path(options.folder) / "yade_packing.py").string(), yade_packing_script());
   }
-  grown.lines = lines_of(growing, real.left_out, execution);
+  if (options.shard.count > 1) return grown;
+  grown.lines =
+      lines_of(growing, read_grain_table(folder.file("grown", ".csv")), real.left_out, execution);
   return grown;
 }
 

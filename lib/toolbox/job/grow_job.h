@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/job/grain_run.h"
+#include "toolbox/job/grain_job.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"
 #include "toolbox/sample/sample_grain.h"
@@ -14,17 +14,17 @@
 
 namespace wscvt {
 
-inline constexpr NumberOption<int> grown_count_option = {"grains", "number of grains", 1, 10000000};
+inline constexpr NumberOption<int> grown_count_option = {"count", "number of grains", 1, 10000000};
 inline constexpr NumberOption<int> grown_nodes_option = {"nodes",    "number of nodes", 12, 1000000,
                                                          Ends::Both, "of each mesh"};
 
 /// Virtual grains with the statistics of a sample, as files in a folder.
 struct GrowJob {
-  std::string folder;  ///< exists
+  std::string folder;
+  Shard shard;
   int grains = 1000;
   int nodes = 500;                     ///< of each mesh
-  std::string format = "ply";          ///< ending of the meshes
-  bool coefficients = false;           ///< files of SH coefficients instead of meshes
+  std::string format = "ply";          ///< ending of the meshes; "json": SH coefficients instead
   int degree = usual_harmonic_degree;  ///< of the SH series of the real grains
   GrowOptions options;
   std::optional<GivenSizes> sizes;  ///< empty: those of the sample
@@ -40,14 +40,14 @@ struct RealGrains {
 /// Result of the job.
 struct GrownSample {
   JobEnd end;
-  std::vector<std::string> lines;  ///< for a log; empty if cancelled
+  std::vector<std::string> lines;  ///< for a log; empty if cancelled, or for a part of the grains
 };
 
 /// Throws Error(InvalidInput) for options out of range.
 void check_job(const GrowJob& job);
 
-/// Makes the grains: a file each, grown.csv with a row each, and for .ply a script for Yade. The
-/// bytes do not depend on the number of threads. Throws as run_grains and GrainGrower.
+/// Makes the grains: a file each, grown.csv with a row each, and for .ply a script for Yade. Throws
+/// as run_job and GrainGrower, and for the first grain that cannot be made.
 GrownSample grow_grains(const GrowJob& job, RealGrains real, const SampleGrids& grids,
                         const JobHost& host);
 

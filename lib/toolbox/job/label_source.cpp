@@ -2,7 +2,7 @@
 #include "toolbox/job/label_source.h"
 
 #include "toolbox/volume/label_table.h"
-#include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
@@ -26,22 +26,30 @@ std::string LabelSource::name(std::size_t grain) const {
 
 GrainScan LabelSource::read(std::size_t grain, bool /*with_pictures*/, const Execution& execution) {
   LabelGrain label = grains_->read(grain, execution);
+  GrainScan scan;
+  const LabelExtent& extent = grains_->labels()[grains_->taken()[grain]];
+  scan.record =
+      [row = label_row(path_, *grains_, extent, {&label, "", ""})](const std::string& file) {
+        return row.substr(0, row.size() - 2) + csv_record({file});  // the last column
+      };
   if (label.mesh.points.empty()) {
-    throw Error(ErrorCode::InvalidInput,
-                "The label is in " + std::to_string(label.pieces) +
-                    " pieces, and the largest has too few voxels for a grain. Segment it again.");
+    scan.refused = "The label is in " + std::to_string(label.pieces) +
+                   " pieces, and the largest has too few voxels for a grain. Segment it again.";
   }
-  return {std::move(label.mesh), {}, warnings_of(label), edge_of_cubes(grains_->geometry())};
+  scan.warnings = warnings_of(label);
+  scan.mesh = std::move(label.mesh);
+  scan.voxel_size = edge_of_cubes(grains_->geometry());
+  return scan;
 }
 
-std::string LabelSource::census(const FileOf& file_of) const {
+std::string LabelSource::census(const MadeOf& made_of) const {
   std::string table = label_header();
   for (const LabelExtent& label : grains_->labels()) {
-    LabelOutcome outcome;
-    if (grains_->state(label) == LabelState::Taken) {
-      outcome.file = file_of(grain_name(path_, label.label));
-    }
-    table += label_row(path_, *grains_, label, outcome);
+    MadeGrain made;
+    if (grains_->state(label) == LabelState::Taken) made = made_of(grain_name(path_, label.label));
+    table += made.record.empty()
+                 ? label_row(path_, *grains_, label, {nullptr, made.file, made.error})
+                 : made.record;
   }
   return table;
 }

@@ -21,9 +21,11 @@ class LabelSource : public GrainSource {
   std::size_t size() const override { return grains_->taken().size(); }
   std::string name(std::size_t grain) const override;
   void want(const std::vector<std::size_t>& grains) override { grains_->want(grains); }
+  /// Refuses a label whose largest piece is below the smallest grain.
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
-  std::string census(const FileOf& file_of) const override;
+  std::string census(const MadeOf& made_of) const override;
   double left_out() const override { return grains_->left_out(); }
+  std::size_t volumes() const override { return 1; }
 
  private:
   std::string path_;

@@ -2,22 +2,18 @@
 #include "toolbox/job/remesh_job.h"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "toolbox/clump/first_contact.h"
 #include "toolbox/exchange/simulation_files.h"
+#include "toolbox/job/extract_job.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/voxel_lines.h"
 #include "toolbox/resolution/resolution.h"
 #include "toolbox/sample/grain_table.h"
-#include "toolbox/volume/segmentation.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -28,26 +24,6 @@
 namespace wscvt {
 
 namespace {
-
-/// Returns every option under the name that users type.
-Json volume_json(const VolumeOptions& options) {
-  Json json = Json::object();
-  const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
-  put(smallest_option.key, options.smallest);
-  put(smoothing_option.key, options.smoothing);
-  const VolumeChoice& choice = options.choice;
-  put(voxel_size_option.key, choice.voxel_size ? json_of(*choice.voxel_size) : Json());
-  put("unit", choice.unit);
-  put(parts_option.key, options.parts);
-  put(separate_option.key, options.separate ? Json(*options.separate) : Json());
-  put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
-  put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
-  put("array", choice.array);
-  const bool is_nan = std::isnan(options.background);
-  put(background_option.key, is_nan ? Json("nan") : Json(options.background));
-  put(at_border_option.key, options.at_border);
-  return json;
-}
 
 /// Whether files are for a simulation. Then a table has the grains' masses.
 bool is_for_simulation(const RemeshJob& job) {
@@ -65,7 +41,7 @@ std::string call_text(const RemeshJob& job) {
                {"describe", key_of(job.shapes.described)},
                {"contacts", job.shapes.contacts},
                {"resolution", job.shapes.resolution},
-               {"volume", volume_json(job.volume)},
+               {"volume", Json::parse(volume_json(job.volume))},
                {"options", json_of(job.remesh)}};
   if (is_for_simulation(job)) {
     const SimulationOptions& simulation = job.simulation;
@@ -308,33 +284,6 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
     if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
   }
   return lines;
-}
-
-FileOfGrain remeshes_beside(const std::vector<std::string>& tables) {
-  std::vector<JobFolder> folders;
-  for (const std::string& table : tables) {
-    const std::filesystem::path folder = std::filesystem::path(table).parent_path();
-    const std::string name = std::filesystem::path(table).stem().string();
-    constexpr std::string_view prefix = "grains";
-    if (name.rfind(prefix, 0) != 0) continue;
-    // The job's call is beside the table, or above the folder of a number of nodes. Both have the
-    // part of the sample in their names.
-    const std::string call_name = "call" + name.substr(prefix.size()) + ".json";
-    for (const std::filesystem::path& place : {folder, folder / ".."}) {
-      std::ifstream stream(place / call_name, std::ios::binary);
-      const Json call = Json::parse(stream, nullptr, false);
-      if (!call.is_object() || !call.value("meshes", Json()).is_string()) continue;
-      folders.emplace_back(folder, call["meshes"].get<std::string>(), Shard());
-      break;
-    }
-  }
-  return [folders](const std::string& grain) -> std::string {
-    for (const JobFolder& folder : folders) {
-      const std::string file = folder.file_of(grain);
-      if (std::filesystem::exists(file)) return file;
-    }
-    return "";
-  };
 }
 
 }  // namespace wscvt

@@ -46,8 +46,4 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
 /// for a log. Does nothing for a part of a sample.
 std::vector<std::string> write_summaries(const GrainJob& job);
 
-/// Returns a function that finds the remesh of a grain in the folders of tables that jobs wrote. It
-/// returns "" for a grain whose remesh is in none of them.
-FileOfGrain remeshes_beside(const std::vector<std::string>& tables);
-
 }  // namespace wscvt

@@ -234,13 +234,6 @@ bool is_spread(const SampleDistribution& one) {
 
 }  // namespace
 
-bool is_without_summary(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  return std::getline(stream, line) && line.rfind("grain,status,error,", 0) == 0 &&
-         line.find(",options.method,") == std::string::npos;
-}
-
 SampleSummary summarise_table(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
@@ -403,14 +396,6 @@ void write_summary(const std::string& path, const SampleSummary& summary,
                    const FileOfGrain& file_of) {
   write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary, file_of)
                                                              : summary_json(summary));
-}
-
-void check_summary(const std::string& path) {
-  if (report_format(path) == ReportFormat::Row) {
-    throw Error(ErrorCode::InvalidInput,
-                "\"" + path + "\" is not a name for a summary. Use .html or .json.");
-  }
-  check_writable(path);
 }
 
 }  // namespace wscvt

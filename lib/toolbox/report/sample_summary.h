@@ -52,10 +52,6 @@ struct SampleSummary {
 /// Max. number of failures, and of grains with warnings, that a summary names.
 inline constexpr std::size_t most_failures_named = 100;
 
-/// Whether a file begins like a table with a row per grain that is not of remeshes, but for example
-/// of shapes or clumps, and has no summary. False if it cannot be read.
-bool is_without_summary(const std::string& path);
-
 /// Max. number of remeshes that a summary shows.
 inline constexpr std::size_t most_grains_shown = 100;
 
@@ -85,8 +81,5 @@ std::vector<std::string> summary_lines(const SampleSummary& summary);
 /// another ending, Error(InputOutput).
 void write_summary(const std::string& path, const SampleSummary& summary,
                    const FileOfGrain& file_of = {});
-
-/// Checks before the work that write_summary will accept the name.
-void check_summary(const std::string& path);
 
 }  // namespace wscvt

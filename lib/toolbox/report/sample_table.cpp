@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "wscvt/base/csv_reader.h"
@@ -18,7 +19,14 @@ namespace {
 
 constexpr const char* done = "done";
 constexpr const char* failed = "failed";
-constexpr std::size_t status_column = 1;
+
+/// Returns the error of a failed row, or null.
+const std::string* failure_of(const std::vector<std::string>& fields) {
+  for (const std::size_t status : {1U, 3U}) {  // of a label, the fourth
+    if (fields.size() > status + 1 && fields[status] == failed) return &fields[status + 1];
+  }
+  return nullptr;
+}
 
 [[noreturn]] void fail(ErrorCode code, const std::string& path, const std::string& what) {
   throw Error(code, "\"" + path + "\" " + what);
@@ -43,52 +51,12 @@ std::vector<std::string> first_fields(const std::string& grain, const char* stat
   return fields;
 }
 
-/// Position of a grain's row.
-struct RowPlace {
-  std::string grain;
-  std::size_t table;
-  std::size_t offset;
-  std::size_t size;
-};
-
-/// Returns the table's header. Throws if the file is not such a table.
-std::string read_header(const std::string& path, CsvReader& reader) {
-  std::vector<std::string> fields;
-  if (!reader.next(fields) || fields.size() < 3 || fields[0] != "grain" ||
-      fields[status_column] != "status") {
-    fail(ErrorCode::InvalidInput, path,
-         "is not a table of a sample. Give tables that batch wrote.");
-  }
-  return reader.text();
-}
-
 std::ifstream open(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
     fail(ErrorCode::InputOutput, path, "cannot be opened. Check that the file exists.");
   }
   return stream;
-}
-
-void add_places(const std::string& path, std::size_t table, std::string& header,
-                std::vector<RowPlace>& places) {
-  std::ifstream stream = open(path);
-  CsvReader reader(stream);
-  const std::string own_header = read_header(path, reader);
-  if (table > 0 && own_header != header) {
-    fail(
-        ErrorCode::InvalidInput, path,
-        "has other columns than the first table. Join only tables of one version and one command.");
-  }
-  header = own_header;
-  std::vector<std::string> fields;
-  for (std::size_t offset = reader.size(); reader.next(fields); offset = reader.size()) {
-    places.push_back({fields.front(), table, offset, reader.text().size()});
-  }
-  if (reader.is_cut()) {
-    fail(ErrorCode::InvalidInput, path,
-         "ends within a row. Run its batch command again to complete it.");
-  }
 }
 
 /// Returns the path, after check_writable.
@@ -129,6 +97,14 @@ std::string failed_row(const std::string& grain, const std::string& error, Secon
   return failed_row(grain, error, report_csv(RemeshResult()), seconds);
 }
 
+std::string failure_in(const std::string& record) {
+  std::istringstream stream(record);
+  std::vector<std::string> fields;
+  CsvReader(stream).next(fields);
+  const std::string* error = failure_of(fields);
+  return error == nullptr ? "" : *error;
+}
+
 SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
     : table_(writable(path), TableUse::AppendAlone) {
@@ -154,7 +130,7 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
                ", but the inputs have " + expected +
                ". The table is from other inputs. Give those, or another folder.");
     }
-    rows_.push_back({begin, fields[status_column] == failed});
+    rows_.push_back({begin, failure_of(fields) != nullptr});
   }
   if (reader.is_cut()) table_.cut(reader.size());
 }
@@ -171,37 +147,5 @@ void SampleTable::keep(std::size_t rows) {
 }
 
 void SampleTable::append(const std::string& row) { table_.append(row); }
-
-void join_tables(const std::vector<std::string>& tables, const std::string& joined) {
-  std::string header;
-  std::vector<RowPlace> places;
-  for (std::size_t table = 0; table < tables.size(); ++table) {
-    add_places(tables[table], table, header, places);
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const RowPlace& a, const RowPlace& b) { return a.grain < b.grain; });
-  std::vector<std::ifstream> streams;
-  streams.reserve(tables.size());
-  for (const std::string& table : tables) streams.push_back(open(table));
-  write_file(joined, [&](std::ostream& stream) {
-    stream << header;
-    std::string last;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const RowPlace& place = places[k];
-      std::string row(place.size, '\0');
-      streams[place.table].seekg(static_cast<std::streamoff>(place.offset));
-      streams[place.table].read(row.data(), static_cast<std::streamsize>(row.size()));
-      if (k > 0 && places[k - 1].grain == place.grain) {
-        if (row == last) continue;
-        fail(ErrorCode::InvalidInput, tables[place.table],
-             "and \"" + tables[places[k - 1].table] + "\" have different rows of \"" + place.grain +
-                 "\". Join only tables of parts of one sample.");
-      }
-      stream << row;
-      last = std::move(row);
-    }
-    return stream.good();
-  });
-}
 
 }  // namespace wscvt

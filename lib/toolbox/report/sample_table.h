@@ -34,6 +34,11 @@ std::string sample_row(const std::string& grain, const std::string& report, Seco
 std::string failed_row(const std::string& grain, const std::string& error,
                        const std::string& report, Seconds seconds);
 
+/// Returns the message of a failed grain in its record; empty if it did not fail. Also of a table
+/// of labels (label_table.h), whose fourth column is the state of the label and whose fifth is the
+/// error.
+std::string failure_in(const std::string& record);
+
 /// Such a table, or a table of shapes (shape_table.h), as a growing file. A killed program leaves
 /// whole rows and at most one incomplete row, which the next opening removes.
 class SampleTable {
@@ -65,10 +70,5 @@ class SampleTable {
   OpenTable table_;
   std::vector<Row> rows_;
 };
-
-/// Joins complete tables of parts of a sample, with equal columns. Rows are sorted by the grains'
-/// names, so the result does not depend on the parts. Throws Error(InvalidInput) if columns differ,
-/// a table ends within a row, or a grain has two different rows; Error(InputOutput).
-void join_tables(const std::vector<std::string>& tables, const std::string& joined);
 
 }  // namespace wscvt

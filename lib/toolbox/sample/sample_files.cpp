@@ -54,11 +54,10 @@ std::vector<std::string> sample_files(const std::string& path) {
            "\" has meshes but no shape.csv. Measure them first: wscvt batch " + path +
            " -o FOLDER. Then give that folder.");
   }
-  const std::string parts = (fs::path(path) / "shape-*.csv").string();
   refuse("The folder \"" + path +
          "\" has no shape.csv. Give a folder that wscvt batch wrote without " +
-         mention("describe", "none") + ". Join the tables of its parts by: wscvt collect " + parts +
-         " -o " + whole);
+         mention("describe", "none") +
+         ". The call of its parts, without --shard, joins their tables.");
 }
 
 SampleTables read_sample(const std::string& path, const Execution& execution) {

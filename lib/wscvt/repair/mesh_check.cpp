@@ -115,13 +115,12 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   report.inner_volume_fraction = inner_volume / report.volume;
   report.dropped_volume_fraction = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_fraction > options.dropped_volume_limit) {
-    refuse(
-        "The mesh has " + std::to_string(report.components - report.inner_components) +
-        " separate bodies and the largest has only " +
-        format_percent(1.0 - report.dropped_volume_fraction) +
-        " of their volume, so there is no main body. Split the mesh (wscvt split MESH FOLDER; in "
-        "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
-        "separately, or all of them by wscvt batch MESH -o OUT --parts.");
+    refuse("The mesh has " + std::to_string(report.components - report.inner_components) +
+           " separate bodies and the largest has only " +
+           format_percent(1.0 - report.dropped_volume_fraction) +
+           " of their volume, so there is no main body. Split the mesh (wscvt extract MESH OUT; in "
+           "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
+           "separately, or all of them by wscvt batch MESH -o OUT --parts.");
   }
 }
 
@@ -298,7 +297,7 @@ void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t
   if (bodies < 2 || !(largest < (1.0 - largest_other) * all)) return;
   refuse("The mesh has " + std::to_string(bodies) +
          " bodies with common walls, and the largest has only " + format_percent(largest / all) +
-         " of their volume. Split the mesh (wscvt split MESH FOLDER) and remesh each body "
+         " of their volume. Split the mesh (wscvt extract MESH OUT) and remesh each body "
          "separately, or all of them by wscvt batch MESH -o OUT --parts.");
 }
 

@@ -175,7 +175,7 @@ def degrees(a, b):
 def row(program, folder, grains, truth, across, blur):
     h = 2 * grains.r.mean() / across
     path = os.path.join(folder, "labels.nrrd")
-    call = [program, "fabric", path, "-o", os.path.join(folder, "out"), "-q"]
+    call = [program, "describe", path, "-o", os.path.join(folder, "out"), "-q"]
     if blur is None:
         labels, _ = labels_of(grains, h, numpy.random.default_rng(across).uniform(-0.5, 0.5, 3), 1)
         write(path, labels)
@@ -192,7 +192,7 @@ def row(program, folder, grains, truth, across, blur):
         labels = read(path)
         place = numpy.round((grains.x - origin - (parts - 1) / 2 * h / parts) / h).astype(int)
         of_grain = labels[tuple(place.T)].astype(int)
-        call += ["--scan", scan]
+        call.append(scan)
     subprocess.run(call, check=True)
     with open(os.path.join(folder, "out", "contacts.csv"), newline="") as file:
         found = {(int(r["first"]), int(r["second"])): r for r in csv.DictReader(file)}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of virtual_grains.md: wscvt grow and wscvt templates on a population of real grains.
+"""The tables of virtual_grains.md: wscvt grow on a population of real grains.
 
     tests/figures/study/virtual_grains.py PROGRAM FOLDER [--seed 1] [--grown 1000] [--splits 4]
 
@@ -219,8 +219,8 @@ def grow(arguments, files, folder, donors):
     names.write_text("".join("%s\n" % file for file in files))
     out = pathlib.Path(folder) / ("grown%d" % donors)
     run = subprocess.run(
-        [arguments.program, "grow", "@%s" % names, "-n", str(arguments.grown), "-o", out, "--donors",
-         str(donors), "--coefficients", "--seed", str(arguments.seed)],
+        [arguments.program, "grow", "@%s" % names, "-k", str(arguments.grown), "-o", out, "--donors",
+         str(donors), "--format", "json", "--seed", str(arguments.seed)],
         stdout=subprocess.PIPE, text=True, check=False)
     grains = []
     for file in sorted(out.glob("*.json")):
@@ -235,7 +235,7 @@ def templates(arguments, files, folder):
     print("\n| K | by number | random | by mass | random |\n|---|---|---|---|---|")
     for count in (10, 20, 50):
         out = pathlib.Path(folder) / ("templates%d" % count)
-        subprocess.run([arguments.program, "templates", "@%s" % names, "-k", str(count), "-n", "100",
+        subprocess.run([arguments.program, "grow", "--templates", "@%s" % names, "-k", str(count), "-n", "100",
                         "-o", out, "-q", "--seed", str(arguments.seed)], check=False)
         with open(out / "distances.csv", newline="") as table:
             row = list(csv.DictReader(table))[-1]

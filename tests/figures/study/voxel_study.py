@@ -121,12 +121,12 @@ def nodes(program):
             save("labels.npy", inside)
             write_off("true.off", true)
             call(program, "extract", "labels.npy", "scan", "-q")
-            scan = report(program, "compare", "scan/1.ply", "true.off")
+            scan = report(program, "describe", "scan/1.ply", "true.off")
             rms = scan["distances"]["rms_distance"]
             cells = []
             for count in (50, 100, 200, 400, 800, 1600):
                 call(program, "remesh", "scan/1.ply", "remesh.ply", "-n", count, "-q", "--overwrite")
-                made = report(program, "compare", "remesh.ply", "true.off")["distances"]["rms_distance"]
+                made = report(program, "describe", "remesh.ply", "true.off")["distances"]["rms_distance"]
                 side = np.sqrt(scan["descriptors"]["area"]["value"] / count)
                 cells.append(f"{count}: {side:.2f}, {made / rms:.2f}")
             print(f"{seed} | {across} | {rms:.3f} | " + "; ".join(cells), flush=True)

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/extract_job.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "toolbox/job/label_source.h"
+#include "toolbox/report/sample_table.h"
+#include "toolbox/volume/label_table.h"
+#include "toolbox/volume/segmentation.h"
+#include "wscvt/base/csv_reader.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+std::string body_header() {
+  return csv_record({"body", "state", "volume", "pores", "pore_volume", "boundary_edges", "x_min",
+                     "y_min", "z_min", "x_max", "y_max", "z_max", "vertices", "faces", "file",
+                     "name"});
+}
+
+/// Returns a record with the grain's name before it.
+std::string named(const std::string& grain, const std::string& record) {
+  const std::string name = csv_record({grain});
+  return name.substr(0, name.size() - 2) + "," + record;
+}
+
+/// "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small".
+std::string line_of(const std::string& census, const std::string& noun) {
+  std::map<std::string, std::size_t> states;
+  std::size_t rows = 0;
+  std::size_t pores = 0;
+  std::istringstream stream(census);
+  CsvReader reader(stream);
+  std::vector<std::string> heading;
+  std::vector<std::string> fields;
+  reader.next(heading);
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(heading.begin(), heading.end(), name) -
+                                    heading.begin());
+  };
+  const std::size_t state = column("state");
+  const std::size_t pore = column("pores");
+  while (reader.next(fields)) {
+    ++rows;
+    const bool in_pieces = fields[state].rfind("in ", 0) == 0;
+    ++states[in_pieces ? "pieces" : fields[state]];
+    if (in_pieces) ++states["written"];
+    if (pore < fields.size()) pores += std::stoul(fields[pore]);
+  }
+  std::string text = std::to_string(rows) + (rows == 1 && noun == "bodies" ? " body" : " " + noun) +
+                     ": " + std::to_string(states["written"]) + " written";
+  if (states["pieces"] > 0) text += " (" + std::to_string(states["pieces"]) + " in pieces)";
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += ", " + std::to_string(count) + what;
+  };
+  add(states["at the border"], " at the border");
+  add(states["too small"], " too small");
+  add(states["open"], " open and only listed");
+  add(states["failed"], " failed");
+  add(pores, pores == 1 ? " pore in them" : " pores in them");
+  return text;
+}
+
+}  // namespace
+
+std::string volume_json(const VolumeOptions& options) {
+  Json json = Json::object();
+  const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
+  put(smallest_option.key, options.smallest);
+  put(smoothing_option.key, options.smoothing);
+  const VolumeChoice& choice = options.choice;
+  put(voxel_size_option.key, choice.voxel_size ? json_of(*choice.voxel_size) : Json());
+  put("unit", choice.unit);
+  put(parts_option.key, options.parts);
+  put(separate_option.key, options.separate ? Json(*options.separate) : Json());
+  put(channel_option.key, choice.channel ? Json(*choice.channel) : Json());
+  put(frame_option.key, choice.frame ? Json(*choice.frame) : Json());
+  put("array", choice.array);
+  const bool is_nan = std::isnan(options.background);
+  put(background_option.key, is_nan ? Json("nan") : Json(options.background));
+  put(at_border_option.key, options.at_border);
+  return json.dump();
+}
+
+BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execution)
+    : path_(std::move(path)) {
+  MeshFile file = read_mesh_file(path_, execution.part(0.0, 0.5));
+  MeshBodies split =
+      split_bodies(std::move(file.mesh), std::move(file.named_faces), execution.part(0.5, 1.0));
+  bodies_ = std::move(split.list);
+  warnings_ = std::move(file.warnings);
+  warnings_.insert(warnings_.end(), split.warnings.begin(), split.warnings.end());
+  double largest = 0.0;
+  for (const MeshBody& body : bodies_) largest = std::max(largest, body.volume);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const MeshBody& body = bodies_[k];
+    if (body.is_closed() && body.volume >= 0.01 * smallest * largest) taken_.push_back(k);
+  }
+}
+
+std::string BodyGrains::name(std::size_t grain) const { return name_of(taken_[grain]); }
+
+GrainScan BodyGrains::read(std::size_t grain, bool /*with_pictures*/,
+                           const Execution& /*execution*/) {
+  GrainScan scan{bodies_[taken_[grain]].mesh};
+  scan.record = [this, body = taken_[grain]](const std::string& file) {
+    return named(name_of(body), row_of(body, file));
+  };
+  return scan;
+}
+
+std::string BodyGrains::row_of(std::size_t number, const std::string& file) const {
+  const MeshBody& body = bodies_[number];
+  std::vector<std::string> fields = {
+      std::to_string(number + 1),
+      !body.is_closed() ? "open" : file.empty() ? "too small" : "written",
+      format_exact(body.volume),
+      std::to_string(body.pores),
+      format_exact(body.pore_volume),
+      std::to_string(body.boundary_edges)};
+  Vector3 low = body.mesh.points.front();
+  Vector3 high = low;
+  for (const Vector3& p : body.mesh.points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  for (const Vector3& corner : {low, high}) {
+    for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
+  }
+  fields.push_back(std::to_string(body.mesh.points.size()));
+  fields.push_back(std::to_string(body.mesh.triangles.size()));
+  fields.push_back(file);
+  fields.push_back(body.name);
+  return csv_record(fields);
+}
+
+std::string BodyGrains::census(const MadeOf& made_of) const {
+  std::string table = body_header();
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const bool is_taken = std::binary_search(taken_.begin(), taken_.end(), k);
+    table += row_of(k, is_taken ? made_of(name_of(k)).file : "");
+  }
+  return table;
+}
+
+GrainJob make_job(const ExtractJob& options, const std::string& folder, const Shard& shard) {
+  const bool of_labels = options.table == "labels";
+  const std::string header = of_labels ? label_header() : named("grain", body_header());
+  Json call = {{"format", "wscvt-extract"}, {"made_by", made_by()}, {"meshes", options.format}};
+  if (of_labels) call["volume"] = Json::parse(volume_json(options.volume));
+  if (!of_labels) call["smallest"] = options.smallest_body;
+  GrainJob job;
+  job.folder = folder;
+  job.shard = shard;
+  job.ending = options.format;
+  job.call = json_document(call);
+  job.tables = {{"grains", header}};
+  job.takes_refused = true;
+  job.is_kept = false;
+  job.make = [](GrainAtWork& grain) -> std::vector<std::string> {
+    const JobFolder& place = grain.folders.front();
+    if (!grain.scan.refused.empty()) return {grain.scan.record("")};
+    write_mesh(grain.scan.mesh, place.file_of(grain.name));
+    return {grain.scan.record(place.name_of(grain.name))};
+  };
+  const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+  job.failed = [columns](const std::string& grain, const std::string& error,
+                         double) -> std::vector<std::string> {
+    std::vector<std::string> fields = {grain, "", "", "failed", error};
+    fields.resize(columns);
+    return {csv_record(fields)};
+  };
+  return job;
+}
+
+std::string write_census(const ExtractJob& options, const GrainJob& job,
+                         const GrainSource& grains) {
+  if (job.shard.count > 1) return "";
+  const JobFolder folder = folders_of(job).front();
+  std::map<std::string, std::string> records;
+  std::ifstream table(folder.table(), std::ios::binary);
+  CsvReader reader(table);
+  std::vector<std::string> fields;
+  while (reader.next(fields)) records[fields.front()] = reader.text();
+  const std::string census = grains.census([&](const std::string& grain) -> MadeGrain {
+    const std::string record = records[csv_field(grain)];
+    const std::string error = failure_in(record);
+    if (!error.empty()) return {"", "", error};
+    return {folder.name_of(grain), record};
+  });
+  write_file(folder.file(options.table, ".csv"), census);
+  table.close();
+  std::error_code ignored;
+  std::filesystem::remove(folder.table(), ignored);
+  return line_of(census, options.table);
+}
+
+}  // namespace wscvt

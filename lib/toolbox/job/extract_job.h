@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "toolbox/job/grain_job.h"
+#include "toolbox/volume/label_grains.h"
+#include "wscvt/base/option.h"
+#include "wscvt/repair/bodies.h"
+
+namespace wscvt {
+
+inline constexpr NumberOption<double> smallest_body_option = {
+    "smallest", "volume of the smallest body in % of the largest one's", 0.0, 100.0};
+
+/// Returns every option of a volume under the name that users type, as JSON.
+std::string volume_json(const VolumeOptions& options);
+
+/// The closed bodies of a mesh, with the names PATH/1, PATH/2, ... in the order of the file. Its
+/// census is a table of all bodies: CSV with a row per body, see lib/doc/program.md.
+class BodyGrains : public GrainSource {
+ public:
+  /// `smallest`: volume of the smallest body that is a grain, % of the largest body's. Throws as
+  /// read_mesh_file and split_bodies.
+  BodyGrains(std::string path, double smallest, const Execution& execution);
+
+  std::size_t size() const override { return taken_.size(); }
+  std::string name(std::size_t grain) const override;
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
+  std::string census(const MadeOf& made_of) const override;
+  std::size_t volumes() const override { return 1; }
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  std::string name_of(std::size_t body) const { return path_ + "/" + std::to_string(body + 1); }
+  std::string row_of(std::size_t body, const std::string& file) const;
+
+  std::string path_;
+  std::vector<MeshBody> bodies_;
+  std::vector<std::size_t> taken_;
+  std::vector<std::string> warnings_;
+};
+
+/// The mesh of each label of a volume, or each body of a mesh, as it is.
+struct ExtractJob {
+  std::string format = "ply";    ///< ending of the meshes
+  VolumeOptions volume;          ///< of a volume
+  double smallest_body = 0.0;    ///< of a mesh, see BodyGrains
+  std::string table = "labels";  ///< name of the census: "labels" or "bodies"
+};
+
+/// Returns the job. Its table, grains.csv, has the rows of the census for the grains that are made,
+/// until write_census.
+GrainJob make_job(const ExtractJob& options, const std::string& folder, const Shard& shard = {});
+
+/// Writes the census of a job that is done. Returns a line for a log. Does nothing for a part of a
+/// sample.
+std::string write_census(const ExtractJob& options, const GrainJob& job, const GrainSource& grains);
+
+}  // namespace wscvt

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/template_job.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "toolbox/clump/clump_fit.h"
+#include "toolbox/exchange/template_files.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/portable_math.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/remesh.h"
+#include "wscvt/report/json.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int spheres_of_template = 12;  ///< of a template's clump
+
+/// Returns the mesh with an equivalent radius of 1, about its centroid in its principal frame.
+IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
+  const ShapeDescriptors shape = describe_shape(mesh, execution);
+  const double radius = portable::cbrt(3.0 / (4.0 * pi) * shape.volume);
+  const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix().transpose();
+  for (Vector3& point : mesh.points) point = turn * (point - shape.centroid) / radius;
+  return mesh;
+}
+
+/// Returns a clump for the template, with an equivalent diameter of 1.
+std::vector<Sphere> clump_of(const IndexedMesh& unit, const Execution& execution) {
+  ClumpOptions options;
+  options.sphere_count = spheres_of_template;
+  std::vector<Sphere> spheres = fit_spheres(unit, options, execution).spheres;
+  for (Sphere& sphere : spheres) sphere = {0.5 * sphere.centre, 0.5 * sphere.radius};
+  return spheres;
+}
+
+std::vector<double> masses_of(const DescribedSample& sample) {
+  std::vector<double> masses;
+  for (const double d : sample.diameters) masses.push_back(d * d * d);
+  return masses;
+}
+
+std::string template_header(const TemplateJob& job) {
+  std::vector<std::string> heading = {"grain",
+                                      "file",
+                                      "source",
+                                      "weight_by_number",
+                                      "weight_by_mass",
+                                      "equivalent_diameter [length]",
+                                      "smallest_diameter [length]",
+                                      "largest_diameter [length]"};
+  heading.insert(heading.end(), job.descriptors.begin(), job.descriptors.end());
+  return csv_record(heading);
+}
+
+std::string template_row(const DescribedSample& sample, const SampleTemplates& templates,
+                         std::size_t k, const std::string& name, const std::string& file) {
+  const std::size_t grain = templates.grains[k];
+  double smallest = sample.diameters[grain], largest = smallest;
+  for (std::size_t i = 0; i < sample.files.size(); ++i) {
+    if (templates.stands_for[i] != k) continue;
+    smallest = std::min(smallest, sample.diameters[i]);
+    largest = std::max(largest, sample.diameters[i]);
+  }
+  std::vector<std::string> row = {name,
+                                  file,
+                                  fs::path(sample.files[grain]).filename().string(),
+                                  format_exact(templates.by_number[k]),
+                                  format_exact(templates.by_mass[k]),
+                                  format_exact(sample.diameters[grain]),
+                                  format_exact(smallest),
+                                  format_exact(largest)};
+  for (Eigen::Index j = 0; j < sample.descriptors.cols(); ++j) {
+    row.push_back(format_exact(sample.descriptors(static_cast<Eigen::Index>(grain), j)));
+  }
+  return csv_record(row);
+}
+
+double mean_distance(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::vector<std::vector<std::string>> distance_rows(const TemplateJob& job,
+                                                    const SampleTemplates& templates,
+                                                    std::string (*number)(double)) {
+  std::vector<std::vector<std::string>> rows = {
+      {"descriptor", "by number", "random", "by mass", "random"}};
+  const TemplateDistances& a = templates.reached;
+  const TemplateDistances& b = templates.random;
+  for (std::size_t j = 0; j < job.descriptors.size(); ++j) {
+    rows.push_back({job.descriptors[j], number(a.by_number[j]), number(b.by_number[j]),
+                    number(a.by_mass[j]), number(b.by_mass[j])});
+  }
+  rows.push_back({"mean", number(mean_distance(a.by_number)), number(mean_distance(b.by_number)),
+                  number(mean_distance(a.by_mass)), number(mean_distance(b.by_mass))});
+  return rows;
+}
+
+std::vector<std::string> summary_lines(const TemplateJob& job, const DescribedSample& sample,
+                                       const SampleTemplates& templates) {
+  std::vector<std::string> lines = {
+      std::to_string(templates.grains.size()) + " templates of " +
+          std::to_string(sample.files.size()) + " grains (" + std::to_string(sample.left_out) +
+          " left out), seed " + std::to_string(job.options.seed) + ".",
+      "Wasserstein distance to the sample, in standard deviations of the sample:"};
+  const std::vector<std::string> table = aligned_lines(
+      distance_rows(job, templates, [](double value) { return format_number(value, 3); }));
+  for (const std::string& line : table) lines.push_back("  " + line);
+  return lines;
+}
+
+std::string distance_table(const TemplateJob& job, const SampleTemplates& templates) {
+  std::vector<std::vector<std::string>> rows =
+      distance_rows(job, templates, [](double value) { return format_exact(value); });
+  rows.front() = {"descriptor", "by_number", "random_by_number", "by_mass", "random_by_mass"};
+  std::string table;
+  for (const std::vector<std::string>& row : rows) table += csv_record(row);
+  return table;
+}
+
+GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
+                const SampleTemplates& templates) {
+  GrainJob job;
+  job.folder = options.folder;
+  job.shard = options.shard;
+  job.ending = options.format;
+  job.more_files = {{"", "spheres"}};
+  job.call = json_document({{"format", "wscvt-templates"},
+                            {"made_by", made_by()},
+                            {"meshes", options.format},
+                            {"count", options.options.count},
+                            {"nodes", options.nodes},
+                            {"descriptors", options.descriptors},
+                            {"seed", options.options.seed},
+                            {"sample", sample.files}});
+  job.tables = {{"templates", template_header(options)}};
+  job.is_kept = false;
+  job.make = [&](GrainAtWork& grain) -> std::vector<std::string> {
+    const JobFolder& folder = grain.folders.front();
+    RemeshOptions remeshed;
+    remeshed.node_count = options.nodes;
+    IndexedMesh mesh = remesh(std::move(grain.scan.mesh), remeshed, grain.execution).mesh;
+    mesh = unit_mesh(std::move(mesh), grain.execution);
+    const std::vector<Sphere> spheres = clump_of(mesh, grain.execution);
+    for (Vector3& point : mesh.points) point *= 0.5;
+    write_mesh(mesh, folder.file_of(grain.name));
+    write_file(folder.file_of(grain.name, {"", "spheres"}), sphere_rows(spheres));
+    return {
+        template_row(sample, templates, grain.scan.place, grain.name, folder.name_of(grain.name))};
+  };
+  job.failed = [](const std::string& grain, const std::string& error,
+                  double) -> std::vector<std::string> {
+    throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
+  };
+  return job;
+}
+
+/// Writes what all templates together have.
+void write_sample_files(const TemplateJob& job, const DescribedSample& sample,
+                        const SampleTemplates& templates, const JobFolder& folder,
+                        const GrainSource& grains) {
+  const auto write = [&](const char* file, const std::string& text) {
+    write_file((fs::path(job.folder) / file).string(), text);
+  };
+  write("distances.csv", distance_table(job, templates));
+  write("sizes.csv", size_curve_csv(sample.diameters));
+  write("mercury_psd.csv", mercury_psd_csv(sample.diameters));
+  write("yade_packing.py", yade_packing_script());
+  std::vector<double> diameters;  // each represents a third of the mass
+  for (const double sixths : {1.0, 3.0, 5.0}) {
+    diameters.push_back(diameter_by_mass(sample.diameters, sixths / 6.0));
+  }
+  std::vector<ClumpTemplate> clumps;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    const std::string path = folder.file_of(grains.name(k), {"", "spheres"});
+    std::ifstream rows(path, std::ios::binary);
+    const auto count = std::count(std::istreambuf_iterator<char>(rows), {}, '\n');
+    clumps.push_back({fs::path(path).filename().string(), static_cast<std::size_t>(count),
+                      templates.by_mass[k]});
+  }
+  write("liggghts.in", liggghts_template_input(clumps, diameters));
+}
+
+}  // namespace
+
+MadeTemplates make_templates(
+    const TemplateJob& options, const DescribedSample& sample,
+    const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
+    const JobHost& host) {
+  const SampleTemplates templates = choose_templates(sample.descriptors, masses_of(sample),
+                                                     options.options, Execution(host.threads));
+  const NamedGrains::Read read_chosen = [&](std::size_t k, const Execution& execution) {
+    return read(sample.files[templates.grains[k]], execution);
+  };
+  JoinedGrains grains(options.shard);
+  grains.add(std::make_unique<NamedGrains>("template-", templates.grains.size(), 2, read_chosen));
+  const GrainJob job = job_of(options, sample, templates);
+  MadeTemplates made;
+  made.end = run_job(job, grains, host);
+  if (made.end.was_cancelled() || options.shard.count > 1) return made;
+  write_sample_files(options, sample, templates, folders_of(job).front(), grains);
+  made.lines = summary_lines(options, sample, templates);
+  return made;
+}
+
+}  // namespace wscvt

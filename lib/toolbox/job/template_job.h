@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "toolbox/job/grain_job.h"
+#include "toolbox/sample/templates.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/base/indexed_mesh.h"
+
+namespace wscvt {
+
+/// Grains of a sample with the descriptors for the choice of templates.
+struct DescribedSample {
+  std::vector<std::string> files;  ///< of the grains: meshes or SH coefficients
+  std::vector<double> diameters;   ///< of the spheres of equal volume, length
+  Eigen::MatrixXd descriptors;     ///< grains x names
+  std::size_t left_out = 0;
+};
+
+/// K grains that represent a sample, as files in a folder.
+struct TemplateJob {
+  std::string folder;
+  Shard shard;
+  std::string format = "ply";  ///< ending of the meshes
+  int nodes = 500;             ///< of each mesh
+  std::vector<std::string> descriptors = {"sphericity_wadell", "zingg_elongation_inertia",
+                                          "zingg_flatness_inertia", "convexity"};
+  TemplateOptions options;
+};
+
+/// Result of the job.
+struct MadeTemplates {
+  JobEnd end;
+  std::vector<std::string>
+      lines;  ///< for a log; empty if cancelled, or for a part of the templates
+};
+
+/// Chooses the templates and writes a mesh and spheres of each, templates.csv, sizes.csv,
+/// distances.csv, and files for Yade, LIGGGHTS and MercuryDPM. `read` returns the closed mesh of a
+/// file of the sample, on several threads at once. Throws as run_job and choose_templates, and for
+/// the first template that cannot be made.
+MadeTemplates make_templates(
+    const TemplateJob& job, const DescribedSample& sample,
+    const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
+    const JobHost& host);
+
+}  // namespace wscvt
