@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/long_edges.h"
+
+#include <queue>
+#include <string>
+#include <tuple>
+
+#include "wscvt/base/error.h"
+
+namespace wscvt {
+
+namespace {
+
+/// Squared length, half-edge, and its ends.
+using LongEdge = std::tuple<double, std::int32_t, std::int32_t, std::int32_t>;
+
+}  // namespace
+
+std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
+                                                          std::size_t most,
+                                                          const Execution& execution) {
+  constexpr std::size_t splits_a_report = 1 << 16;
+  std::priority_queue<LongEdge> edges;
+  const auto enter = [&](std::int32_t h) {
+    const std::int32_t from = mesh.origin(h);
+    const std::int32_t to = mesh.target(h);
+    const double squared = (mesh.points[from] - mesh.points[to]).squaredNorm();
+    if (squared > length * length) edges.emplace(squared, h, from, to);
+  };
+  for (std::size_t h = 0; h < mesh.opposite.size(); ++h) {
+    const auto half_edge = static_cast<std::int32_t>(h);
+    if (half_edge < mesh.opposite[h]) enter(half_edge);
+  }
+  std::vector<std::array<std::int32_t, 2>> ends;
+  while (!edges.empty()) {
+    const auto [squared, half_edge, from, to] = edges.top();
+    edges.pop();
+    // Splits nearby renumber half-edges.
+    if (mesh.origin(half_edge) != from || mesh.target(half_edge) != to) continue;
+    if (ends.size() == most) {
+      refuse("The scan's faces are so long and narrow that more than " + std::to_string(most) +
+             " vertices would be needed to split them. Look for a vertex far from the others, or "
+             "scan the grain again with more vertices.");
+    }
+    if (ends.size() % splits_a_report == 0) execution.report(0.0, "Splitting the scan's faces");
+    const auto v = static_cast<std::int32_t>(mesh.points.size());
+    const auto free = static_cast<std::int32_t>(mesh.triangles.size());
+    mesh.points.push_back(0.5 * (mesh.points[from] + mesh.points[to]));
+    mesh.first.push_back(-1);
+    mesh.degrees.push_back(0);
+    mesh.triangles.resize(mesh.triangles.size() + 2);
+    mesh.opposite.resize(mesh.opposite.size() + 6, -1);
+    mesh.put_on_edge(v, half_edge, {free, free + 1});
+    ends.push_back({from, to});
+    mesh.around(v, [&](std::int32_t h) {
+      enter(h);
+      enter(next_half_edge(h));
+    });
+  }
+  return ends;
+}
+
+}  // namespace wscvt
