@@ -41,8 +41,7 @@ constexpr int normal_rounds = 3;
 
 /// The part of a Voronoi cell in one triangle, at one corner.
 struct CellPart {
-  double mass = 0.0;  ///< area, or area times density squared
-  double area = 0.0;
+  double mass = 0.0;                 ///< area, or area times density squared
   Vector3 moment = Vector3::Zero();  ///< of the mass about the corner
 };
 
@@ -59,7 +58,9 @@ Vector3 circumcentre_weights(const Vector3& a, const Vector3& b, const Vector3& 
   for (int k = 0; k < 3; ++k) w[k] = l[k] * (l[(k + 1) % 3] + l[(k + 2) % 3] - l[k]);
   const double sum = w.sum();
   if (!(sum > 1e-300)) return Vector3::Constant(1.0 / 3.0);
-  w = (w / sum).cwiseMax(least_circumcentre_weight);
+  w *= 1.0 / sum;
+  if (w.minCoeff() >= least_circumcentre_weight) return w;
+  w = w.cwiseMax(least_circumcentre_weight);
   return w / w.sum();
 }
 
@@ -69,7 +70,6 @@ void add_part(CellPart& part, const Vector3& corner, double corner_density, cons
   const Vector3 to_q = q.position - corner;
   const double area = 0.5 * to_p.cross(to_q).dot(normal);
   const double sum = corner_density + p.density + q.density;
-  part.area += area;
   part.mass += area / 3.0 * sum;
   // The centroid of a linear density, about the corner.
   part.moment += area / 12.0 * ((sum + p.density) * to_p + (sum + q.density) * to_q);
@@ -105,8 +105,8 @@ void even_cell_parts(const std::array<const Vector3*, 3>& x, double doubled_area
     const double area_j = quarter * w[static_cast<Eigen::Index>(i)];  // of the edge from k to j
     const double area_i = quarter * w[static_cast<Eigen::Index>(j)];
     const Vector3 to_centre = centre - *x[k];
-    parts[k].area = parts[k].mass = area_i + area_j;
-    parts[k].moment = (parts[k].area / 3.0) * to_centre + (area_i / 6.0) * (*x[i] - *x[k]) +
+    parts[k].mass = area_i + area_j;
+    parts[k].moment = (parts[k].mass / 3.0) * to_centre + (area_i / 6.0) * (*x[i] - *x[k]) +
                       (area_j / 6.0) * (*x[j] - *x[k]);
   }
 }
@@ -239,7 +239,7 @@ class Evening {
   void plan(double share_of_last) {
     measure_cells();
     double area = 0.0;
-    for (const CellPart& part : parts_) area += part.area;
+    for (const double length : lengths_) area += 0.5 * length;
     const double mean = area / static_cast<double>(count_);
     for_nodes([&](std::size_t i) { plan_node(i, mean, share_of_last); });
   }
@@ -387,7 +387,7 @@ std::vector<double> voronoi_areas(const EditMesh& nodes) {
     std::array<CellPart, 3> parts;
     even_cell_parts({&nodes.points[a], &nodes.points[b], &nodes.points[c]}, nodes.normal(t).norm(),
                     parts.data());
-    for (int k = 0; k < 3; ++k) areas[nodes.triangles[t][k]] += parts[k].area;
+    for (int k = 0; k < 3; ++k) areas[nodes.triangles[t][k]] += parts[k].mass;
   }
   return areas;
 }

@@ -47,7 +47,7 @@ FitDial fit_dial(double ratio, bool weighted) {
   FitDial dial;
   dial.ratio = ratio;
   dial.samples_a_node = static_cast<int>(30.0 + 40.0 * x);
-  dial.rounds = static_cast<int>(16.0 + 12.0 * std::min(1.0, x / 0.06) + 20.0 * close);
+  dial.rounds = static_cast<int>(14.0 + 14.0 * std::min(1.0, x / 0.06) + 20.0 * close);
   dial.late_rounds = std::min(6, dial.rounds / 2 - 1);
   const double even_share = std::max(0.0, 1.0 - x / uneven);
   const auto blend = [](double share, double one, double other) {
@@ -267,10 +267,6 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
   place_samples(execution);
 }
 
-double FitState::weight(double squared_distance) const {
-  return 1.0 + robust_weight * std::min(squared_distance / mean_square, most_robust);
-}
-
 double FitState::error(double squared_distance) const {
   return squared_distance *
          (1.0 + 0.5 * robust_weight * std::min(squared_distance / mean_square, farthest_error));
@@ -311,10 +307,17 @@ void FitState::place_samples(const Execution& execution) {
   const double sum = execution.parallel_sum(
       samples.size(), placed_samples_block, 0.0, [&](std::size_t begin, std::size_t end) {
         double part = 0.0;
+        MeasuredTriangle shape = measured_triangle(mesh, samples[begin].face);
+        std::int32_t measured = samples[begin].face;  // neighbours in memory share triangles
         for (std::size_t s = begin; s < end; ++s) {
           FitSample& sample = samples[s];
           const std::int32_t last = sample.face;
-          sample.place = walk_to_nearest(sample.point, mesh, sample.face);
+          if (last != measured) shape = measured_triangle(mesh, last);
+          measured = last;
+          sample.place = shape.nearest(sample.point);
+          if (sample.place.region != 0) {
+            sample.place = walk_to_nearest(sample.point, mesh, sample.face, sample.place);
+          }
           // Over a rim, the walk may come to the sheet behind, which the sample would pull up.
           if (normals[sample.face].dot(sample.normal) < 0.0) {
             sample.face = facing_triangle(mesh, normals, sample, last, edge);
@@ -330,14 +333,16 @@ void FitState::place_samples(const Execution& execution) {
 
 void FitState::list_samples() {
   of.resize(mesh.triangles.size());
-  for (std::vector<std::int32_t>& list : of) list.clear();
+  std::vector<std::size_t> counts(mesh.triangles.size(), 0);
+  for (const FitSample& sample : samples) ++counts[sample.face];
+  for (std::size_t t = 0; t < counts.size(); ++t) of[t].resize(std::exchange(counts[t], 0));
   sample_normals.assign(mesh.triangles.size(), Vector3::Zero());
   about.assign(mesh.points.size(), Vector3::Zero());
   std::vector<double> sums(mesh.points.size(), 1e-300);
   bool even = true;
   for (std::size_t s = 0; s < samples.size(); ++s) {
     const FitSample& sample = samples[s];
-    of[sample.face].push_back(static_cast<std::int32_t>(s));
+    of[sample.face][counts[sample.face]++] = static_cast<std::int32_t>(s);
     sample_normals[sample.face] += sample.normal;
     const Triangle& corners = mesh.triangles[sample.face];
     for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -123,7 +124,9 @@ struct FitState {
     return spacing.empty() ? 1.0 : 2.0 / (spacing[v] + spacing[w]);
   }
   /// Returns the weight of a sample by its distance.
-  double weight(double squared_distance) const;
+  double weight(double squared_distance) const {
+    return 1.0 + robust_weight * std::min(squared_distance / mean_square, most_robust);
+  }
   /// Returns the cost of a sample: its squared distance, times 1 plus half of the extra weight.
   double error(double squared_distance) const;
   /// Returns how much a triangle is sharper than the goal, from 0 to 1 for an angle of 0;

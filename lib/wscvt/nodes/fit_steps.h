@@ -24,7 +24,7 @@ int flip_for_fit(FitState& state);
 /// Computes a step of all nodes at once from a linear least-squares problem. The planes of the
 /// triangles move to their samples, as in the mesh optimization of Hoppe et al. 1993 (SIGGRAPH,
 /// 19), but along the mean of the scan's and the triangle's normals. Edges keep their rest lengths,
-/// and nodes the middles of their rings. Solved by 10 steps of conjugate gradients over blocks of 3
+/// and nodes the middles of their rings. Solved by 8 steps of conjugate gradients over blocks of 3
 /// by 3; full accuracy is not needed, because the next round solves again. A sparse factorization
 /// would take ten times as long.
 ///

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/surface/star_shape.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "wscvt/base/numbers.h"
 
@@ -22,9 +22,27 @@ double rim_share(double flatness) {
 }
 
 Vector3 least_direction(const Eigen::Matrix3d& tensor) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.compute(tensor);
-  return solver.eigenvectors().col(0);
+  // The adjugate has the products of the other two values, so the smallest one's is largest. Each
+  // square doubles the ratio's power.
+  constexpr int squares = 5;
+  Eigen::Matrix3d power;
+  for (int k = 0; k < 3; ++k) {
+    power.col(k) = tensor.col((k + 1) % 3).cross(tensor.col((k + 2) % 3));
+  }
+  // Sheets on one another leave every direction in their plane.
+  constexpr double rounding = 1e-13;
+  if (!(power.trace() > rounding * tensor.trace() * tensor.trace())) {
+    Eigen::Index up = 0;
+    tensor.diagonal().maxCoeff(&up);
+    return tensor.col(up).unitOrthogonal();
+  }
+  for (int square = 0; square < squares; ++square) {
+    power /= power.trace();
+    power = (power * power).eval();
+  }
+  Eigen::Index longest = 0;
+  power.diagonal().maxCoeff(&longest);
+  return power.col(longest).normalized();
 }
 
 }  // namespace wscvt

@@ -4,11 +4,15 @@
 namespace wscvt {
 
 TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t) {
+  return walk_to_nearest(p, mesh, t, nearest_in_triangle(p, mesh, t));
+}
+
+TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t,
+                              TrianglePlace place) {
   // Each step is nearer by more than rounding, so a walk never returns; the limit is a safeguard
   // only.
   constexpr int most_steps = 10000;
   constexpr double rounding = 1e-12;
-  TrianglePlace place = nearest_in_triangle(p, mesh, t);
   for (int step = 0; step < most_steps && place.region != 0; ++step) {
     std::int32_t nearest = -1;
     double limit = place.squared_distance * (1.0 - rounding);

@@ -86,5 +86,8 @@ inline TrianglePlace nearest_in_triangle(const Vector3& p, const EditMesh& mesh,
 /// until no neighbour is nearer, and stores the last one in `t`. If the point comes from near `t`,
 /// this is the nearest point. It is always on the sheet of the surface of `t`.
 TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t);
+/// The same, with the nearest point in `t`.
+TrianglePlace walk_to_nearest(const Vector3& p, const EditMesh& mesh, std::int32_t& t,
+                              TrianglePlace place);
 
 }  // namespace wscvt
