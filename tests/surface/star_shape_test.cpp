@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <iostream>
+#include <random>
 #include <vector>
 
 namespace wscvt {
@@ -33,6 +36,32 @@ TEST(StarShape, KnowsTheRimsDirection) {
   EXPECT_NEAR(std::abs(shape.along.dot(along)), 1.0, 1e-12);
   EXPECT_NEAR(shape.tangential(up).norm(), 0.0, 1e-12);
   EXPECT_NEAR((shape.tangential(along + out) - along).norm(), 0.0, 1e-12);
+}
+
+TEST(StarShape, FindsTheLeastDirectionOfAnyTensor) {
+  constexpr unsigned seed = 5;
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 6; ++k) {
+      const Vector3 normal(number(random), number(random), number(random));
+      tensor += normal * normal.transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
+    const Vector3 values = solver.eigenvalues();
+    if (values[0] > 0.7 * values[1]) continue;  // each squaring squares the ratio: .7^32 = 1e-5
+    EXPECT_NEAR(std::abs(least_direction(tensor).dot(solver.eigenvectors().col(0))), 1.0, 1e-9);
+  }
+}
+
+TEST(StarShape, OfSheetsOnOneAnotherMovesInTheirPlane) {
+  const Vector3 up = Vector3(0.3, 0.5, -0.8).normalized();
+  const StarShape shape = shape_of({up, -up, 2.0 * up});
+  EXPECT_EQ(shape.rim, 1.0);
+  EXPECT_NEAR(shape.along.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(shape.along.dot(up), 0.0, 1e-12);
 }
 
 TEST(StarShape, OfASheetMovesAlongIt) {

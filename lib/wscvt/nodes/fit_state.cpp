@@ -334,22 +334,32 @@ void FitState::place_samples(const Execution& execution) {
 void FitState::list_samples() {
   of.resize(mesh.triangles.size());
   std::vector<std::size_t> counts(mesh.triangles.size(), 0);
-  for (const FitSample& sample : samples) ++counts[sample.face];
+  bool even = true;
+  for (const FitSample& sample : samples) {
+    ++counts[sample.face];
+    even = even && sample.spacing == 1.0;
+  }
   for (std::size_t t = 0; t < counts.size(); ++t) of[t].resize(std::exchange(counts[t], 0));
-  sample_normals.assign(mesh.triangles.size(), Vector3::Zero());
+  for (std::size_t s = 0; s < samples.size(); ++s) {
+    const std::int32_t t = samples[s].face;
+    of[t][counts[t]++] = static_cast<std::int32_t>(s);
+  }
+  sample_normals.resize(mesh.triangles.size());
   about.assign(mesh.points.size(), Vector3::Zero());
   std::vector<double> sums(mesh.points.size(), 1e-300);
-  bool even = true;
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    const FitSample& sample = samples[s];
-    of[sample.face][counts[sample.face]++] = static_cast<std::int32_t>(s);
-    sample_normals[sample.face] += sample.normal;
-    const Triangle& corners = mesh.triangles[sample.face];
-    for (int k = 0; k < 3; ++k) {
-      about[corners[k]] += sample.place.weights[k] * sample.normal;
-      sums[corners[k]] += sample.place.weights[k];
+  for (std::size_t t = 0; t < of.size(); ++t) {
+    Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+    Vector3 weights = Vector3::Zero();
+    for (const std::int32_t s : of[t]) {
+      const FitSample& sample = samples[s];
+      for (int k = 0; k < 3; ++k) normals.col(k) += sample.place.weights[k] * sample.normal;
+      weights += sample.place.weights;
     }
-    even = even && sample.spacing == 1.0;
+    sample_normals[t] = normals.rowwise().sum();
+    for (int k = 0; k < 3; ++k) {
+      about[mesh.triangles[t][k]] += normals.col(k);
+      sums[mesh.triangles[t][k]] += weights[k];
+    }
   }
   for (std::size_t v = 0; v < about.size(); ++v) about[v] /= sums[v];
   if (!even) read_spacing();

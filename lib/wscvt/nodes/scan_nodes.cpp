@@ -20,7 +20,6 @@
 #include "wscvt/surface/intersection_repair.h"
 #include "wscvt/surface/long_edges.h"
 #include "wscvt/surface/self_intersections.h"
-#include "wscvt/surface/space_order.h"
 #include "wscvt/surface/triangle_hash.h"
 #include "wscvt/surface/volume_offset.h"
 
@@ -94,12 +93,6 @@ struct ScanRemesher::Parts {
 
 namespace {
 
-/// A scan with split faces.
-struct SplitScan {
-  IndexedMesh mesh;
-  std::vector<Vector3> normals;  ///< at the vertices, outward, unit
-};
-
 /// Nodes in preparation, with their surface.
 struct Placing {
   SplitScan split;  ///< if needed
@@ -127,30 +120,6 @@ bool has_long_faces(const IndexedMesh& scan, double cell) {
   return std::any_of(scan.triangles.begin(), scan.triangles.end(), [&](const Triangle& t) {
     return is_long(t[0], t[1]) || is_long(t[1], t[2]) || is_long(t[2], t[0]);
   });
-}
-
-/// Splits long edges; the normal of a new vertex is the mean of its edge's ends. Splitting scatters
-/// neighbours in memory, so vertices and faces are sorted again.
-SplitScan split_scan(const EditMesh& scan, double area, std::size_t nodes, EditMesh& split,
-                     const Execution& execution) {
-  std::vector<Vector3> normals = vertex_normals(scan.points, scan.triangles);
-  split = scan;
-  const double cell = area / static_cast<double>(split_vertices_a_node * nodes);
-  const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
-  const std::size_t most = most_splits * (normals.size() + split_vertices_a_node * nodes);
-  for (const auto& [a, b] : split_long_edges(split, long_edge * even_edge, most, execution)) {
-    const Vector3 sum = normals[a] + normals[b];
-    const double length = sum.norm();
-    normals.push_back(length > 0.0 ? Vector3(sum / length) : sum);
-  }
-  SplitScan ordered;
-  ordered.normals.reserve(normals.size());
-  for (const std::int32_t v : order_in_space(split.points, split.triangles)) {
-    ordered.normals.push_back(normals[v]);
-  }
-  split.link(execution);
-  ordered.mesh = {split.points, split.triangles};
-  return ordered;
 }
 
 /// Coarsens to exactly `count` vertices; false if handles need more.
@@ -244,8 +213,11 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
                          (scan_vertices <= most_split_vertices_a_node * nodes &&
                           has_long_faces(parts.scan, parts.area / node_count));
   if (is_coarse) {
-    EditMesh split;
-    placing.split = split_scan(parts.base.mesh(), parts.area, nodes, split, execution);
+    EditMesh split = parts.base.mesh();
+    const double cell = parts.area / static_cast<double>(split_vertices_a_node * nodes);
+    const double even_edge = std::sqrt(2.0 / std::sqrt(3.0) * cell);
+    const std::size_t most = most_splits * (scan_vertices + split_vertices_a_node * nodes);
+    placing.split = split_long_edges(split, long_edge * even_edge, most, execution);
     coarsening = Coarsening(std::move(split), {});
   }
   sweep_below(coarsening, most_proxy_vertices_a_node * nodes, execution);

@@ -51,15 +51,23 @@ bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t 
   const Vector3 db = mesh.points[b] - pd;
   Vector3 m1 = ca.cross(cb);
   Vector3 m2 = db.cross(da);
+  Vector3 n1 = ca.cross(pd - pc);
+  Vector3 n2 = (pd - pc).cross(cb);
+  const double at_c = ca.dot(cb);
+  const double at_d = da.dot(db);
+  // Most edges are flat and opposite to acute angles, which is seen without roots.
+  const double bend = m1.dot(m2);
+  if (at_c >= 0.0 && at_d >= 0.0 && bend > 0.0 && n1.dot(n2) > 0.0 &&
+      bend * bend > sharp_bend * sharp_bend * m1.squaredNorm() * m2.squaredNorm()) {
+    return false;
+  }
   const double s1 = m1.norm();
   const double s2 = m2.norm();
   // The sine of the sum of the angles at c and d, times the edges' lengths.
-  const double sine = ca.dot(cb) * s2 + da.dot(db) * s1;
+  const double sine = at_c * s2 + at_d * s1;
   const bool is_delaunay = sine > -1e-6 * (s1 * s2 + 1e-300);
   if (mesh.degrees[a] <= 3 || mesh.degrees[b] <= 3 || c == d) return false;
-  Vector3 n1 = ca.cross(pd - pc);
-  Vector3 n2 = (pd - pc).cross(cb);
-  if (is_delaunay && n1.dot(n2) > 0.0 && m1.dot(m2) > sharp_bend * s1 * s2) return false;
+  if (is_delaunay && n1.dot(n2) > 0.0 && bend > sharp_bend * s1 * s2) return false;
   const double a1 = n1.norm();
   const double a2 = n2.norm();
   if (a1 < 1e-300 || a2 < 1e-300) return false;

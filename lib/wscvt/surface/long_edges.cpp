@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/surface/long_edges.h"
 
+#include <array>
+#include <cstdint>
 #include <queue>
 #include <string>
 #include <tuple>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/space_order.h"
 
 namespace wscvt {
 
@@ -14,11 +18,9 @@ namespace {
 /// Squared length, half-edge, and its ends.
 using LongEdge = std::tuple<double, std::int32_t, std::int32_t, std::int32_t>;
 
-}  // namespace
-
-std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double length,
-                                                          std::size_t most,
-                                                          const Execution& execution) {
+/// Returns the ends of each new vertex's edge, in order; they may be new vertices themselves.
+std::vector<std::array<std::int32_t, 2>> split(EditMesh& mesh, double length, std::size_t most,
+                                               const Execution& execution) {
   constexpr std::size_t splits_a_report = 1 << 16;
   std::priority_queue<LongEdge> edges;
   const auto enter = [&](std::int32_t h) {
@@ -58,6 +60,26 @@ std::vector<std::array<std::int32_t, 2>> split_long_edges(EditMesh& mesh, double
     });
   }
   return ends;
+}
+
+}  // namespace
+
+SplitScan split_long_edges(EditMesh& mesh, double length, std::size_t most,
+                           const Execution& execution) {
+  std::vector<Vector3> normals = vertex_normals(mesh.points, mesh.triangles);
+  for (const auto& [a, b] : split(mesh, length, most, execution)) {
+    const Vector3 sum = normals[a] + normals[b];
+    const double size = sum.norm();
+    normals.push_back(size > 0.0 ? Vector3(sum / size) : sum);
+  }
+  SplitScan ordered;
+  ordered.normals.reserve(normals.size());
+  for (const std::int32_t v : order_in_space(mesh.points, mesh.triangles)) {
+    ordered.normals.push_back(normals[v]);
+  }
+  mesh.link(execution);
+  ordered.mesh = {mesh.points, mesh.triangles};
+  return ordered;
 }
 
 }  // namespace wscvt
