@@ -25,9 +25,10 @@ from make_static import make_static  # noqa: E402
 from make_wheel import HEADERS_OF, check_symbols, copyright_of, output_of, package_of  # noqa: E402
 
 # What else the static program holds.
-OF_STATIC = {"libinsighttoolkit5-dev", "libcli11-dev", "libc6-dev", "libstdc++-12-dev"}
+OF_STATIC = {"libcli11-dev", "libc6-dev"}
 # Debian's MeshLab brings all but these.
 OF_PLUGIN = re.compile(r"lib(gmp|mpfr)\.so\.\d+$")
+DEBIAN_12 = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13)}
 
 
 def run(*command):
@@ -79,7 +80,7 @@ def bundle(file, target, libraries_folder, wanted):
     for copy, search_path in copies.items():
         run("patchelf", "--set-rpath", search_path, copy)
         run("strip", "--strip-unneeded", copy)
-        check_symbols(copy)
+        check_symbols(copy, DEBIAN_12)
     return libraries
 
 

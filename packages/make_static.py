@@ -62,8 +62,9 @@ def itk(work):
         source = work / "itk"
         run(PROJECT / "packages" / "debian_source.sh", "insighttoolkit5", source)
         run("cmake", "-S", source, "-B", built, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF",
-            "-DBUILD_TESTING=OFF", "-DBUILD_EXAMPLES=OFF", "-DITK_BUILD_DEFAULT_MODULES=OFF", "-DModule_ITKCommon=ON",
-            "-DITK_USE_SYSTEM_EIGEN=ON", "-DITK_FORBID_DOWNLOADS=ON")
+            "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DBUILD_TESTING=OFF", "-DBUILD_EXAMPLES=OFF",
+            "-DITK_BUILD_DEFAULT_MODULES=OFF", "-DModule_ITKCommon=ON", "-DITK_USE_SYSTEM_EIGEN=ON",
+            "-DITK_FORBID_DOWNLOADS=ON")
         run("cmake", "--build", built, "--target", *ITK)
         shutil.rmtree(source)
         (built / "whole").touch()

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the wheel of the Python module and uses it in roots of Debian 12 and 13 that have only Python and
-# NumPy. Both must make the bytes of the program's mesh. As root, for debootstrap.
+# Makes the wheel of the Python module and uses it in roots of Debian 11 to 13 that have only Python and
+# NumPy. Each must make the bytes of the program's mesh. As root, for debootstrap.
 #   tests/wheel.sh BUILD WORK_FOLDER
 # The roots stay in WORK_FOLDER and are used again.
 set -eu
@@ -21,7 +21,7 @@ wheel=$(echo "$work"/wscvt-*.whl)
 [ -f "$wheel" ] || fail "There is not one wheel in $work."
 "$build/lib/wscvt" "$root/meshes/sand_7228.ply" "$work/program.ply" -q -n 300
 
-for suite in bookworm trixie; do
+for suite in bullseye bookworm trixie; do
   tree=$work/$suite
   if [ ! -d "$tree" ]; then
     rm -rf "$tree.part"
@@ -34,17 +34,22 @@ for suite in bookworm trixie; do
   # The root has no pip; that of this system chooses and unpacks the wheel as the one there would.
   rm -rf "$tree/opt/wscvt"
   /usr/bin/python3 -m pip install -q --no-index --no-deps --only-binary=:all: --root-user-action=ignore \
-    --python-version "$python" --platform manylinux_2_36_x86_64 --target "$tree/opt/wscvt" "$wheel"
+    --python-version "$python" --platform manylinux_2_31_x86_64 --target "$tree/opt/wscvt" "$wheel"
   cp "$root/meshes/sand_7228.ply" "$root/lib/examples/one_grain.py" "$tree/opt"
   chroot "$tree" env PYTHONPATH=/opt/wscvt PYTHONDONTWRITEBYTECODE=1 python3 -c '
 import wscvt
-wscvt.write_mesh("/opt/remesh.ply", wscvt.remesh("/opt/sand_7228.ply", 300))'
+wscvt.write_mesh("/opt/remesh.ply", wscvt.remesh("/opt/sand_7228.ply", 300))
+import numpy
+z, y, x = numpy.mgrid[0:32, 0:32, 0:60]
+balls = [200 * ((x - centre) ** 2 + (y - 16) ** 2 + (z - 16) ** 2 < 150) for centre in (16, 40)]
+found = wscvt.segment(numpy.maximum(*balls).astype(numpy.uint8), 1.0)
+assert found["grains"] == 2, found'
   cmp "$work/program.ply" "$tree/opt/remesh.ply" ||
     fail "The wheel in $suite made another mesh than the program."
   chroot "$tree" env PYTHONPATH=/opt/wscvt python3 /opt/one_grain.py /opt/sand_7228.ply /opt/one.ply \
     > "$work/one_grain-$suite.txt"
   # Its own libraries are loaded, not those that the root happens to have.
-  for library in gmp mpfr z; do
+  for library in gmp mpfr; do
     chroot "$tree" sh -c 'ldd /opt/wscvt/wscvt/_wscvt.*.so' |
       grep -q "lib$library\.so.* => /opt/wscvt/wscvt/libs/" ||
       fail "The module in $suite does not load the lib$library of the wheel."

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Fetches the headers of another Debian's Python, and of the pybind11 for it.
+# Fetches packages of another Debian: the headers of its Python and of the pybind11 for it, its C library.
 #   lib/python/get_headers.sh FOLDER SUITE PACKAGE...
 #   lib/python/get_headers.sh build/headers-trixie trixie libpython3.13-dev pybind11-dev
 # Unpacks the packages into FOLDER, for CMake's option WSCVT_PYTHON_OTHER_HEADERS. Does nothing if FOLDER

@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes one self-contained wheel of the module for the Pythons of Debian 12 and 13.
+"""Makes one self-contained wheel of the module for the Pythons of Debian 11 to 13 and glibc 2.31 or later.
 
     lib/python/make_wheel.py BUILD OUTPUT_FOLDER
 
-BUILD is a configured build folder, build/release for example. The wheel contains a module for each Python,
-the shared libraries that they need except those of every Linux (libc, libstdc++), and all licence texts.
-Needs g++, patchelf, and Debian's archive for the headers of the other Python.
+BUILD is a configured build folder of Debian 12, build/release for example. The wheel contains a module for each Python
+with the library of C++ inside, the shared libraries that they need except those of every Linux, and all licence texts.
+Needs g++, patchelf, and Debian's archive for the headers of the other Pythons, for glibc 2.31 and, once, for ITK's
+sources, 280 MB.
 """
 import base64
 import hashlib
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -20,20 +22,28 @@ import zipfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
-OTHER_PYTHONS = {"trixie": "libpython3.13-dev"}  # of which Debian suite which package
+sys.path.insert(0, str(PROJECT / "packages"))
+from make_static import SYSTEM, itk, openmesh  # noqa: E402
+
+# Of which Debian suite which packages: another Python's headers, and those of pybind11 if ours do not know this Python.
+OTHER_PYTHONS = {"bullseye": ["libpython3.9-dev"], "trixie": ["libpython3.13-dev", "pybind11-dev"]}
+# The C library that the modules are linked with. They load with every later one.
+OLD_SUITE, OLD_LIBRARY = "bullseye", ["libc6", "libc6-dev"]
 # The wheel's promise to pip. The check below rejects newer symbols.
-PLATFORM = "manylinux_2_36_x86_64"
-NEWEST_SYMBOLS = {"GLIBC": (2, 36), "GLIBCXX": (3, 4, 30), "CXXABI": (1, 3, 13)}
-OF_EVERY_LINUX = re.compile(r"(libc|libm|libstdc\+\+|libgcc_s|ld-linux-x86-64)\.so\.\d+$")
+PLATFORM = "manylinux_2_31_x86_64"
+NEWEST_SYMBOLS = {"GLIBC": (2, 31)}
+OF_EVERY_LINUX = re.compile(r"(libc|libm|libpthread|libgcc_s|ld-linux-x86-64)\.so\.\d+$")
+# What GCC 12 asks of glibc 2.32 or later: whether there is one thread. "No" only costs time.
+SINGLE_THREADED = '__attribute__((visibility("hidden"))) char __libc_single_threaded = 0;'
 # Packages with code in the modules, in addition to the bundled libraries.
-HEADERS_OF = ["libcgal-dev", "libboost1.74-dev", "libeigen3-dev", "libopenmesh-dev",
-              "nlohmann-json3-dev", "libstb-dev", "pybind11-dev"]
+HEADERS_OF = ["libcgal-dev", "libboost1.74-dev", "libeigen3-dev", "libopenmesh-dev", "libinsighttoolkit5-dev",
+              "libstdc++-12-dev", "nlohmann-json3-dev", "libstb-dev", "pybind11-dev", "zlib1g-dev"]
 METADATA = """Metadata-Version: 2.1
 Name: wscvt
 Version: {version}
 Summary: Remeshing of scanned grains to an exact number of nodes
 License: GPL-3.0-or-later
-Requires-Python: >=3.11
+Requires-Python: >=3.9
 Requires-Dist: numpy
 Description-Content-Type: text/markdown
 
@@ -45,18 +55,46 @@ def output_of(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
+def packages_of(folder, suite, packages):
+    """Unpacks packages of another Debian into a folder once, and returns it."""
+    subprocess.run([HERE / "get_headers.sh", folder, suite, *packages], check=True)
+    return folder
+
+
 def build_modules(build):
     """Builds the module for each Python and returns their folder."""
-    folders = []
-    for suite, package in OTHER_PYTHONS.items():
-        folders.append(build.parent / f"python-headers-{suite}")
-        subprocess.run([HERE / "get_headers.sh", folders[-1], suite, package, "pybind11-dev"],
-                       check=True)
+    folders = [packages_of(build.parent / f"python-headers-{suite}", suite, packages)
+               for suite, packages in OTHER_PYTHONS.items()]
     subprocess.run(["cmake", "-S", PROJECT, "-B", build, "-DWSCVT_BUILD_PYTHON=ON",
                     "-DWSCVT_PYTHON_OTHER_HEADERS=" + ";".join(map(str, folders))],
                    check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", build, "--target", "wscvt_pythons"], check=True)
     return build / "lib" / "python" / "wscvt"
+
+
+def link_for_old_linux(build, module, made):
+    """Links a module once more, with the old C library, and with that of C++, OpenMesh and ITK inside."""
+    root = packages_of(build.parent / f"glibc-{OLD_SUITE}", OLD_SUITE, OLD_LIBRARY)
+    libraries = root / "lib" / SYSTEM.name
+    # Debian's link to the loader is an absolute one.
+    loader = root / "lib64" / "ld-linux-x86-64.so.2"
+    if loader.is_symlink() and not loader.exists():
+        loader.unlink()
+        loader.symlink_to(next(libraries.glob("ld-2*.so")))
+    words = shlex.split(output_of("ninja", "-C", build, "-t", "commands", "-s",
+                                  module.relative_to(build)).splitlines()[-1])
+    own = [build / word for word in words if word.endswith((".o", ".a")) and not word.startswith("/")]
+    work = build / "static"
+    work.mkdir(exist_ok=True)
+    (work / "single_threaded.c").write_text(SINGLE_THREADED)
+    single_threaded = work / "single_threaded.o"
+    output_of("cc", "-c", "-fPIC", work / "single_threaded.c", "-o", single_threaded)
+    built = openmesh(work) + (itk(work) if any("libITK" in word for word in words) else [])
+    # Nobody else sees what is inside: another module may have another library of C++.
+    output_of("c++", "-shared", "-s", f"--sysroot={root}", f"-L{root}/usr/lib/{SYSTEM.name}", f"-L{libraries}", "-o",
+              made, "-static-libstdc++", "-Wl,--exclude-libs,ALL", "-Wl,--gc-sections", "-Wl,--as-needed", *own,
+              single_threaded, "-Wl,--start-group", *built, "-Wl,--end-group", SYSTEM / "libmpfr.so",
+              SYSTEM / "libgmp.so", SYSTEM / "libz.a", libraries / "libpthread.so.0", libraries / "libdl.so.2")
 
 
 def libraries_of(module):
@@ -82,24 +120,29 @@ def package_of(library):
     sys.exit(f"No Debian package has {library}, so its licence is unknown.")
 
 
-def check_symbols(file):
+def check_symbols(file, newest):
+    """Ends the program if a file needs a newer version of a library than `newest`, or one that is not in there."""
     for name, version in re.findall(r"\b(GLIBC|GLIBCXX|CXXABI)_([\d.]+)", output_of("objdump", "-T", file)):
-        if tuple(map(int, version.split("."))) > NEWEST_SYMBOLS[name]:
-            sys.exit(f"{file} needs {name}_{version}, which is newer than {PLATFORM} allows. "
-                     "Build on Debian 12.")
+        if tuple(map(int, version.split("."))) > newest.get(name, (0,)):
+            sys.exit(f"{file} needs {name}_{version}, which its users may not have. Build on Debian 12.")
 
 
-def fill(package, licences, modules):
+def version_of(module):
+    """The Python of a module, such as "311"."""
+    return re.search(r"cpython-(\d+)", module.name)[1]
+
+
+def fill(package, licences, modules, build):
     """Copies modules, libraries and licence texts into the wheel's folder."""
     package.mkdir(parents=True)
     licences.mkdir(parents=True)
     for name in ("__init__.py", "__init__.pyi", "py.typed"):
         shutil.copy(modules / name, package)
-    found = sorted(modules.glob("_wscvt.cpython-*.so"))
+    found = sorted(modules.glob("_wscvt.cpython-*.so"), key=lambda module: int(version_of(module)[1:]))
     libraries = {}
     for module in found:
-        libraries.update(libraries_of(module))
-        shutil.copy(module, package)
+        link_for_old_linux(build, module, package / module.name)
+        libraries.update(libraries_of(package / module.name))
         subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/libs", package / module.name], check=True)
     (package / "libs").mkdir()
     for name, path in libraries.items():
@@ -108,11 +151,11 @@ def fill(package, licences, modules):
         subprocess.run(["patchelf", "--set-rpath", "$ORIGIN", copy], check=True)
     for file in package.rglob("*.so*"):
         subprocess.run(["strip", "--strip-unneeded", file], check=True)
-        check_symbols(file)
+        check_symbols(file, NEWEST_SYMBOLS)
     shutil.copy(PROJECT / "LICENSE", licences / "LICENSE")
     for owner in HEADERS_OF + sorted({package_of(path) for path in libraries.values()}):
         (licences / f"{owner}.txt").write_text(copyright_of(owner), encoding="utf-8")
-    return [re.search(r"cpython-(\d+)", module.name)[1] for module in found]
+    return [version_of(module) for module in found]
 
 
 def write_wheel(folder, wheel, info):
@@ -136,15 +179,15 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     build, output = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
-    for tool in ("cmake", "patchelf", "strip", "objdump"):
+    for tool in ("cmake", "ninja", "patchelf", "strip", "objdump"):
         if not shutil.which(tool):
-            sys.exit(f"{tool} is missing. Run: apt-get install cmake patchelf binutils")
+            sys.exit(f"{tool} is missing. Run: apt-get install cmake ninja-build patchelf binutils")
     modules = build_modules(build)
     version = re.search(r"project\(wscvt VERSION ([\d.]+)", (PROJECT / "CMakeLists.txt").read_text())[1]
     info = f"wscvt-{version}.dist-info"
     folder = output / "wheel.part"
     shutil.rmtree(folder, ignore_errors=True)
-    pythons = fill(folder / "wscvt", folder / info / "licenses", modules)
+    pythons = fill(folder / "wscvt", folder / info / "licenses", modules, build)
     abis = ".".join(f"cp{python}" for python in pythons)
     (folder / info / "METADATA").write_text(METADATA.format(version=version) + (HERE / "README.md").read_text())
     (folder / info / "WHEEL").write_text(WHEEL + "".join(
@@ -154,7 +197,7 @@ def main():
     os.replace(str(wheel) + ".part", wheel)
     shutil.rmtree(folder)
     print(f"{wheel} is {wheel.stat().st_size / 1e6:.1f} MB, for Python "
-          + " and ".join(f"{python[0]}.{python[1:]}" for python in pythons) + ".")
+          + ", ".join(f"{python[0]}.{python[1:]}" for python in pythons) + ".")
 
 
 if __name__ == "__main__":
