@@ -366,8 +366,7 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
 
 std::string voxel_file_beside(const std::string& header, const std::string& name) {
   // A NUL would cut the name, which would be another file.
-  if (std::any_of(name.begin(), name.end(),
-                  [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; })) {
+  if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
     refuse_volume(header, "names the file " + in_quotes(name) +
                               " for its voxels, which contains control characters. Correct it.");
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -314,16 +315,16 @@ class CellFinder {
       if (!odd) looks_out[index(a)] = 1;
       if (odd) all_double[index(piece_of_[f])] = 0;
     }
-    std::vector<char> parity(cells_.list.size(), -1);
+    std::vector<std::int8_t> parity(cells_.list.size(), -1);  // a char has no sign on Arm
     for (const std::int32_t outside : outside_) {
       bool is_consistent = true;
       std::vector<std::int32_t> found = {outside};
       parity[index(outside)] = 0;
       for (std::size_t k = 0; k < found.size(); ++k) {
-        const char own = parity[index(found[k])];
+        const std::int8_t own = parity[index(found[k])];
         for (const Neighbour& next : neighbours[index(found[k])]) {
-          const char due = next.odd ? static_cast<char>(1 - own) : own;
-          char& known = parity[index(next.cell)];
+          const std::int8_t due = next.odd ? static_cast<std::int8_t>(1 - own) : own;
+          std::int8_t& known = parity[index(next.cell)];
           if (known < 0) found.push_back(next.cell);
           if (known < 0) known = due;
           is_consistent = is_consistent && known == due;
