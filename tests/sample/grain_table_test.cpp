@@ -83,7 +83,7 @@ TEST_F(GrainTableTest, KnowsTheColumnsOfOtherPrograms) {
   EXPECT_EQ(value(shape, "axis_i_box"), 3.0);
   EXPECT_EQ(value(shape, "zingg_elongation_box"), 0.75);
   // A table of no program keeps its headings.
-  EXPECT_TRUE(read("grain,Volume (mm3)\na,1\n").find("Volume (mm3)"));
+  EXPECT_TRUE(read("grain,Depth (mm3)\na,1\n").find("Depth (mm3)"));
 }
 
 TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {
@@ -110,6 +110,40 @@ TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {
   EXPECT_EQ(read("grain,volume\na,1000.5\nb,2\n").values(0, 0), 1000.5);
   EXPECT_EQ(read("grain;volume\na;1.234\nb;2.5\n").values(0, 0), 1.234);
   EXPECT_EQ(read("grain;volume\na;1,234\nb;2,5\n").values(0, 0), 1.234);
+  // Points at thousands only, beside whole numbers: 456 is not 456 times 1.660.
+  EXPECT_NE(refusal("grain;volume\na;1.660\nb;456\n").find("line 2: \"1.660\" may have a point"),
+            std::string::npos);
+  EXPECT_EQ(read("grain,volume\na,1.660\nb,456\n").values(0, 0), 1.66);
+  EXPECT_EQ(read("grain;volume\na;1.660\nb;456\nc;0.250\n").values(0, 0), 1.66);
+}
+
+TEST_F(GrainTableTest, LeavesOutNoColumnOfADescriptorInSilence) {
+  const std::string sentence = refusal("grain,volume,sphericity_wadell\na,1,80.2%\n");
+  EXPECT_NE(sentence.find("line 2: the column \"sphericity_wadell\" has \"80.2%\". Write a number "
+                          "without"),
+            std::string::npos)
+      << sentence;
+  EXPECT_NE(refusal("grain,volume\na,12 mm\n").find("without a unit"), std::string::npos);
+  EXPECT_NE(refusal("grain,volume,sphericity_wadell\na,1,1.7\n").find("at most 1"),
+            std::string::npos);
+}
+
+TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
+  const GrainTable table = read(
+      "Particle,Volume (mm\xC2\xB3),EquivalentDiameter (mm),Surface Area "
+      "(mm\xC2\xB2)\nb,8,2.5,24\n\n"
+      "c,1,1.2,6\n");
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(heading_of(table.columns[table.index_of("volume")]), "volume [mm^3]");
+  EXPECT_EQ(heading_of(table.columns[table.index_of("area")]), "area [mm^2]");
+  EXPECT_EQ(table.values(1, static_cast<Eigen::Index>(table.index_of("equivalent_diameter"))), 1.2);
+  EXPECT_NE(refusal("\xFF\xFEg\n").find("UTF-16"), std::string::npos);
+}
+
+TEST_F(GrainTableTest, RowsWithoutNamesAreNumbered) {
+  const GrainTable table = read("volume,sphericity\n24,0.8\n25,0.9\n");
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(table.values(1, static_cast<Eigen::Index>(table.index_of("volume"))), 25.0);
 }
 
 TEST_F(GrainTableTest, RefusesValuesThatNoGrainHas) {

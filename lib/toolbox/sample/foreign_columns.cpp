@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -80,6 +81,23 @@ ForeignColumn without_unit(std::string_view heading) {
   return {std::string(text.substr(0, bracket)), unit};
 }
 
+/// Headings of any program: without blanks and marks, in lower case.
+constexpr std::pair<std::string_view, std::string_view> usual_headings[] = {
+    {"volume", "volume"}, {"surfacearea", "area"}, {"equivalentdiameter", "equivalent_diameter"},
+    {"grain", "grain"},   {"particle", "grain"},   {"label", "grain"}};
+
+/// Returns our name of a heading such as "EquivalentDiameter", or an empty text.
+std::string_view usual_name(const std::string& heading) {
+  std::string letters;
+  for (const char byte : lower_case(heading)) {
+    if (byte != ' ' && byte != '_' && byte != '-') letters += byte;
+  }
+  for (const auto& [usual, name] : usual_headings) {
+    if (letters == usual) return name;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<std::vector<ForeignColumn>> foreign_columns(
@@ -100,7 +118,15 @@ std::optional<std::vector<ForeignColumn>> foreign_columns(
     }
     return columns;
   }
-  return {};
+  bool is_usual = false;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string_view name = usual_name(columns[k].name);
+    if (name.empty() || name == trimmed(headings[k])) continue;
+    columns[k].name = name;
+    is_usual = true;
+  }
+  if (!is_usual) return {};
+  return columns;
 }
 
 }  // namespace wscvt

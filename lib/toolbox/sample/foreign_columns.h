@@ -24,6 +24,7 @@ struct ForeignColumn {
 /// - MorphoLibJ (AnalyzeRegions3D.java): "SurfaceArea", "Elli.R1", ... Its sphericity is
 ///   36 pi V^2 / A^3, the cube of Wadell's; its mean breadth is the integral of the mean curvature
 ///   / (2 pi).
+/// - any: "Volume (mm³)", "EquivalentDiameter (µm)", "Surface Area", "Label".
 /// - SHAPE (Geometrical_features.m, Form_indices.m): "Surface_area", "I_obb", "Zingg_I_over_L", ...
 std::optional<std::vector<ForeignColumn>> foreign_columns(const std::vector<std::string>& headings);
 

@@ -70,7 +70,7 @@ bool is_size(std::string_view name) {
 /// Whether a descriptor is a fraction, at most 1 by its definition.
 bool is_fraction(std::string_view name) {
   if (name.rfind("scan.", 0) == 0) name.remove_prefix(5);
-  return name == "sphericity" || name == "convexity";
+  return name.rfind("sphericity", 0) == 0 || name == "convexity";
 }
 
 GrainColumn column_of(std::string_view heading) {
@@ -93,6 +93,7 @@ class TableReader {
 
   void read_heading(const std::vector<std::string>& fields);
   void read_row(const std::vector<std::string>& fields);
+  void note_marks(std::size_t k, const std::string& field);
   void check_field(std::size_t k, const std::string& field, std::optional<double> number);
   GrainTable table();
 
@@ -117,7 +118,7 @@ class TableReader {
   std::vector<GrainColumn> fields_;
   std::vector<ForeignColumn> foreign_;  ///< empty: the table is not another program's
   std::vector<Role> roles_;
-  std::size_t name_field_ = 0;
+  std::optional<std::size_t> name_field_;  ///< none: grains have the numbers of their rows
   std::optional<std::size_t> file_field_;
   std::optional<std::size_t> status_field_;
   std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
@@ -125,6 +126,14 @@ class TableReader {
   bool has_comma_ = false;  ///< a number with a decimal comma
   std::string doubtful_;    ///< a number with points at thousands
   std::size_t doubtful_line_ = 0;
+  /// What a column's numbers look like in a table that may have decimal commas.
+  struct Marks {
+    std::string grouped;  ///< the first one with points at thousands only, such as 1.660
+    std::size_t line = 0;
+    bool has_whole = false;    ///< one without a mark
+    bool has_decimal = false;  ///< one with a point or comma that can only be a decimal mark
+  };
+  std::vector<Marks> marks_;
 };
 
 void TableReader::read_heading(const std::vector<std::string>& fields) {
@@ -132,6 +141,9 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   std::vector<std::string> headings = fields;
   // Spreadsheets write this mark at the beginning of a UTF-8 file.
   if (headings[0].rfind("\xEF\xBB\xBF", 0) == 0) headings[0].erase(0, 3);
+  if (headings[0].rfind("\xFF\xFE", 0) == 0 || headings[0].rfind("\xFE\xFF", 0) == 0) {
+    fail("the table is UTF-16. Save it as UTF-8.");
+  }
   const bool has_numbers_only =
       std::all_of(headings.begin(), headings.end(), [&](const std::string& field) {
         return !trimmed(field).empty() && field_number(field, decimal_).has_value();
@@ -162,8 +174,24 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
     roles_.push_back(is_text ? Role::Text : Role::Undecided);
   }
-  roles_[name_field_] = Role::Text;
+  const std::string& first = fields_.front().name;
+  if (!name_field_ && !is_size(first) && !is_fraction(first)) name_field_ = 0;
+  if (name_field_) roles_[*name_field_] = Role::Text;
   numbers_.resize(fields_.size());
+  marks_.resize(fields_.size());
+}
+
+void TableReader::note_marks(std::size_t k, const std::string& field) {
+  const std::string_view text = trimmed(field);
+  Marks& marks = marks_[k];
+  if (text.find_first_of(".,eE") == std::string_view::npos) {
+    marks.has_whole = marks.has_whole || !text.empty();
+  } else if (!has_thousands(field) || text.front() == '0' || text.find(',') != text.npos) {
+    marks.has_decimal = true;
+  } else if (marks.grouped.empty()) {
+    marks.grouped = field;
+    marks.line = line_;
+  }
 }
 
 /// Throws for a number that no grain has.
@@ -175,8 +203,12 @@ void TableReader::check_field(std::size_t k, const std::string& field,
   };
   if (!number) {
     if (has_thousands(field)) fail_field(". Write numbers without marks between thousands.");
+    if (is_size(fields_[k].name) || is_fraction(fields_[k].name)) {
+      fail_field(". Write a number without a unit or %, or leave the field empty.");
+    }
     return;
   }
+  if (decimal_ == ',') note_marks(k, field);
   // In a table with decimal commas 1.000 may be one or a thousand.
   if (decimal_ == ',' && field.find(',') != std::string::npos) has_comma_ = true;
   if (decimal_ == ',' && field.find('.') != std::string::npos && has_thousands(field) &&
@@ -200,6 +232,7 @@ void TableReader::check_field(std::size_t k, const std::string& field,
 }
 
 void TableReader::read_row(const std::vector<std::string>& fields) {
+  if (fields.size() == 1 && trimmed(fields[0]).empty()) return;  // a blank line
   if (fields.size() != fields_.size()) {
     fail("the row has " + std::to_string(fields.size()) + " fields, and the heading has " +
          std::to_string(fields_.size()) + ". Write one field per column.");
@@ -208,7 +241,8 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
     ++table_.failed;
     return;
   }
-  table_.grains.push_back(fields[name_field_]);
+  table_.grains.push_back(name_field_ ? fields[*name_field_]
+                                      : std::to_string(table_.grains.size() + 1));
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text) continue;
@@ -232,6 +266,14 @@ GrainTable TableReader::table() {
     fail("\"" + readable(doubtful_, "") +
          "\" may have a point between thousands, because other fields have decimal commas. Write "
          "numbers without marks between thousands.");
+  }
+  for (const Marks& marks : marks_) {
+    if (marks.grouped.empty() || !marks.has_whole || marks.has_decimal) continue;
+    line_ = marks.line;
+    fail("\"" + readable(marks.grouped, "") +
+         "\" may have a point between thousands, because other numbers of its column are whole. "
+         "Write numbers without marks between thousands. If the point is a decimal point, separate "
+         "the columns by commas.");
   }
   if (table_.grains.empty()) fail("no row of the table has a grain.");
   std::vector<std::size_t> taken;
