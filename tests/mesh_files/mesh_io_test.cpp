@@ -180,6 +180,20 @@ TEST_F(MeshIo, RefusesStlThatWouldMergeVertices) {
   EXPECT_EQ(read_mesh(path("a.ply")).points, at(1e8).points);
 }
 
+TEST_F(MeshIo, RefusesStlWhoseStepsTurnFaces) {
+  // As a rock in coordinates of a map: no two vertices coincide, but faces turn by degrees.
+  const IndexedMesh far = test::transformed(test::lumpy(3), Eigen::Matrix3d::Identity(),
+                                            Vector3(5e5, 5.4e5, 100.0));
+  try {
+    write_mesh(far, path("a.stl"));
+    FAIL() << "the mesh was rounded in silence";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("of the mean edge. Write PLY"), std::string::npos)
+        << error.what();
+  }
+  write_mesh(far, path("a.off"));
+}
+
 TEST_F(MeshIo, ReadsBinaryPlyWithOtherProperties) {
   // Float and double, other properties around, polygons, both names of the list.
   for (const bool doubles : {false, true}) {

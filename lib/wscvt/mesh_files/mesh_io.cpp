@@ -23,9 +23,11 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/byte_reader.h"
 #include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/readers.h"
@@ -157,6 +159,22 @@ std::size_t fallen_together(const std::vector<Vector3>& points) {
     if (sorted[i].place == sorted[i - 1].place && *sorted[i].point != *sorted[i - 1].point) ++count;
   }
   return count;
+}
+
+/// Returns the steps of single precision at the largest coordinate, as a fraction of the mean edge.
+double single_step(const IndexedMesh& mesh) {
+  double largest = 0.0;
+  for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  double sum = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum += (mesh.points[index(t[k])] - mesh.points[index(t[(k + 1) % 3])]).norm();
+    }
+  }
+  if (!(sum > 0.0) || !std::isfinite(sum)) return 0.0;
+  // Floats have 24 binary digits.
+  const double step = std::ldexp(1.0, std::ilogb(largest) - 23);
+  return step * 3.0 * static_cast<double>(mesh.triangles.size()) / sum;
 }
 
 std::vector<LibraryPoint> library_points(const IndexedMesh& mesh) {
@@ -361,12 +379,20 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
 
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
-  const std::size_t lost = format.write == write_stl ? fallen_together(mesh.points) : 0;
-  if (lost > 0) {
-    fail(path, "cannot store this mesh: binary STL keeps seven digits of a coordinate, so " +
-                   std::to_string(lost) +
-                   " vertices coincide with others. Write PLY, OBJ or OFF, or move the mesh "
-                   "to the origin first.");
+  // As for scans, see precision_warning: coarser steps turn faces and change the volume.
+  constexpr double coarse_step = 0.03;
+  if (format.write == write_stl) {
+    const std::size_t lost = fallen_together(mesh.points);
+    const double step = single_step(mesh);
+    if (lost > 0 || step > coarse_step) {
+      fail(path,
+           "cannot store this mesh: binary STL keeps seven digits of a coordinate, which are "
+           "steps of " +
+               format_percent(step) + " of the mean edge" +
+               (lost > 0 ? ", so that " + std::to_string(lost) + " vertices coincide with others"
+                         : "") +
+               ". Write PLY, OBJ or OFF, or move the mesh to the origin first.");
+    }
   }
   write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });
 }
