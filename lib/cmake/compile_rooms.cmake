@@ -11,6 +11,8 @@ function(wscvt_compile_rooms target)
     elseif(source MATCHES "/volume/(label_volume|(voxel|smoothed)_surface)")
       # Python needs only these files of the volumes, and not the libraries of the file formats.
       set(group label_surface)
+    elseif(source MATCHES "/base/mesh[.]cpp$|/remesh_openmesh[.]cpp$")
+      set(group openmesh)  # what uses none of its meshes needs no library of it
     elseif(source MATCHES "_windows[.]cpp$")
       set(group windows)  # its header of the system defines words as macros
     elseif(source MATCHES "/job/label_source")

@@ -9,7 +9,6 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
-#include "wscvt/measures/carried_attributes.h"
 #include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
@@ -98,18 +97,6 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   execution.report(1.0, "Done");
   return result;
 }
-
-RemeshResult remesh(const Mesh& scan, const RemeshOptions& options, const Execution& execution) {
-  const IndexedMesh flat = to_indexed(scan);
-  const MeshAttributes attributes = attributes_of(scan);
-  RemeshResult result = remesh(flat, options, execution);
-  if (!attributes.empty()) {
-    result.attributes = carried_attributes(flat, attributes, result.mesh, execution);
-  }
-  return result;
-}
-
-Mesh to_mesh(const RemeshResult& result) { return to_mesh(result.mesh, result.attributes); }
 
 std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
                                         const std::vector<int>& node_counts,
