@@ -37,14 +37,7 @@ constexpr FlagOption conforming_option = {
 
 /// Remeshes all taken labels at once.
 int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
-  std::vector<Label> labels;
-  for (const LabelExtent& label : grains.labels()) {
-    if (grains.state(label) == LabelState::Taken) labels.push_back(label.label);
-  }
-  if (labels.empty()) {
-    refuse("No label of \"" + arguments.input + "\" is a grain to mesh. Give " +
-           mention(at_border_option) + " or a smaller " + mention(smallest_option) + ".");
-  }
+  const std::vector<Label> labels = taken_labels(grains);
   CommonArguments common;
   common.threads = arguments.threads;
   common.quiet = arguments.quiet;
@@ -79,9 +72,15 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.msh", walls_msh(result, labels));
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
+  std::vector<std::string> lines = conforming_lines(result);
+  const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
+    std::vector<std::string> names;
+    for (const Label label : labels) names.push_back(std::to_string(label));
+    return tetrahedra_in(meshes, "grain", names, arguments.tetrahedra.edge, work.execution());
+  });
+  lines.insert(lines.end(), filled.begin(), filled.end());
   const Sentence warning = intersection_warning(result, labels);
-  work.print(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning},
-             conforming_lines(result));
+  work.print(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning}, lines);
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 
@@ -99,9 +98,15 @@ ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
   if (same_file(arguments.input, arguments.folder)) {
     refuse("\"" + arguments.input + "\" is the input itself. Give an output folder.");
   }
-  if (!arguments.conforming && arguments.walls.edge_length > 0.0) {
-    refuse(mention(edge_length_option) + " is only for " + mention(conforming_option) + ".");
-  }
+  const auto only_for_conforming = [&](bool is_given, const std::string& option) {
+    if (!is_given || arguments.conforming) return;
+    refuse(option + " is only for " + mention(conforming_option) + ".");
+  };
+  only_for_conforming(arguments.walls.edge_length > 0.0, mention(edge_length_option));
+  only_for_conforming(arguments.walls.nodes > 0, mention(wall_nodes_option));
+  only_for_conforming(!arguments.tetrahedra.files.empty(), "--tetrahedra");
+  check_conforming_options(arguments.walls);
+  check_tetrahedra_arguments(arguments.tetrahedra);
   if (arguments.conforming && (is_mesh || arguments.shard.count > 1)) {
     refuse(mention(conforming_option) + " takes a whole volume of labels at once.");
   }
@@ -154,6 +159,8 @@ CLI::App& add_command(CLI::App& program, ExtractArguments& arguments) {
   app.add_flag("--conforming", arguments.conforming,
                help_of(arguments.conforming, conforming_option));
   add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
+  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option);
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "conforming grains");
   add_format_argument(app, arguments.job.format);
   add_shard_argument(app, arguments.shard);
   add_threads_argument(app, arguments.threads);

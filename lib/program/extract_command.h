@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
+#include "tetrahedra_arguments.h"
 #include "toolbox/conforming/conforming_grains.h"
 #include "toolbox/job/extract_job.h"
 
@@ -16,8 +17,9 @@ struct ExtractArguments {
   std::string smallest;  ///< voxels, or % of the largest body; empty: the job's
   ExtractJob job;
   Shard shard;
-  bool conforming = false;  ///< remeshes all labels at once
-  ConformingOptions walls;  ///< of that; its smoothing is the job's
+  bool conforming = false;         ///< remeshes all labels at once
+  ConformingOptions walls;         ///< of that; its smoothing is the job's
+  TetrahedraArguments tetrahedra;  ///< of conforming grains
   int threads = 0;
   bool quiet = false;
 };

@@ -106,6 +106,7 @@ CLI::App& add_command(CLI::App& program, FragmentArguments& arguments) {
                  "(Rockable, exaDEM). Default: ply")
       ->type_name("NAME");
   add_number(app, "--density", arguments.density, parts_density_option);
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "the fragments");
   add_threads_argument(app, arguments.common.threads);
   app.add_flag("--overwrite", arguments.common.overwrite, "Allow an output to replace the grain");
   app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
@@ -120,6 +121,7 @@ int run(const FragmentArguments& arguments) {
     check_fragment_format(arguments.format);
     require_in_range(arguments.nodes, fragment_nodes_option);
     require_in_range(arguments.density, parts_density_option);
+    check_tetrahedra_arguments(arguments.tetrahedra);
     const FragmentOptions read = options_of(arguments);
     for (int k = 1; k <= read.count; ++k) {
       files.push_back("fragment_" + std::to_string(k) + "." + arguments.format);
@@ -153,7 +155,18 @@ int run(const FragmentArguments& arguments) {
   });
   std::vector<Sentence> warnings(file.warnings.begin(), file.warnings.end());
   warnings.insert(warnings.end(), fragments.warnings.begin(), fragments.warnings.end());
-  work.print(warnings, fragment_lines(fragments));
+  std::vector<std::string> lines = fragment_lines(fragments);
+  const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
+    std::vector<IndexedMesh> meshes;
+    std::vector<std::string> names;
+    for (const Fragment& one : fragments.list) {
+      meshes.push_back(one.mesh);
+      names.push_back(std::to_string(names.size() + 1));
+    }
+    return tetrahedra_in(meshes, "fragment", names, arguments.tetrahedra.edge, work.execution());
+  });
+  lines.insert(lines.end(), filled.begin(), filled.end());
+  work.print(warnings, lines);
   return Done;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common_arguments.h"
+#include "tetrahedra_arguments.h"
 #include "toolbox/fragment/fragment_options.h"
 
 namespace wscvt::program {
@@ -20,6 +21,7 @@ struct FragmentArguments {
   std::vector<std::string> near;  ///< points, "x,y,z"
   int nodes = 0;                  ///< of each fragment's remesh; 0: its own surface
   double density = 1.0;
+  TetrahedraArguments tetrahedra;
   CommonArguments common;
 };
 

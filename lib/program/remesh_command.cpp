@@ -10,9 +10,7 @@
 #include "exit_code.h"
 #include "output_paths.h"
 #include "remesh_arguments.h"
-#include "toolbox/exchange/tetrahedra_files.h"
 #include "toolbox/map/scan_harmonics.h"
-#include "toolbox/tetrahedra/tetrahedra.h"
 #include "work.h"
 #include "wrong_call.h"
 #include "wscvt/base/text.h"
@@ -65,17 +63,11 @@ void check_coefficients_path(const std::string& path) {
          "\" is no name for coefficients. Give a name that ends in .json, or in .sh for SHTOOLS.");
 }
 
-/// Writes the tetrahedra that the call asks for. Returns lines for the log.
-std::vector<std::string> write_all_tetrahedra(const SimulationArguments& simulation,
-                                              IndexedMesh surface, Work& work) {
-  if (simulation.tetrahedra.empty()) return {};
-  const TetrahedralMesh body =
-      tetrahedra_in(std::move(surface), simulation.tetrahedra_edge, work.execution());
-  for (const std::string& path : simulation.tetrahedra) {
-    work.write(path,
-               [&](const std::string& name, const Execution&) { write_tetrahedra(name, body); });
-  }
-  return {tetrahedra_line(body)};
+/// Fills the remesh with tetrahedra, if the call asks for it. Returns lines for the log.
+std::vector<std::string> fill(const TetrahedraArguments& tetrahedra, const IndexedMesh& surface,
+                              Work& work) {
+  return write_all_tetrahedra(
+      tetrahedra, work, [&] { return tetrahedra_in(surface, tetrahedra.edge, work.execution()); });
 }
 
 }  // namespace
@@ -145,7 +137,7 @@ int run(const RemeshArguments& arguments) {
       write_distance_grid(path, result, simulation.options, origin, execution);
     });
   }
-  const auto filled = write_all_tetrahedra(simulation, in_frame(result.mesh, frame), work);
+  const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work);
   for (const std::string& report : common.reports) {
     work.write(report, [&](const std::string& path, const Execution& execution) {
       write_report(path, result, origin, execution);

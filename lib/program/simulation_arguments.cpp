@@ -2,8 +2,6 @@
 #include "simulation_arguments.h"
 
 #include "command.h"
-#include "toolbox/exchange/tetrahedra_files.h"
-#include "toolbox/tetrahedra/tetrahedra.h"
 
 namespace wscvt::program {
 
@@ -39,12 +37,7 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
             "Write signed distances on a grid to this .npy, .vti or .json\n"
             "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
             ".vti is for ParaView, .json is a level set for NetDEM");
-  add_files(app, "--tetrahedra", "FILE", arguments.tetrahedra,
-            "Fill the remesh with tetrahedra, for finite elements: .vtu, .msh or .inp\n"
-            ".msh is Gmsh's, .inp is for Abaqus and CalculiX. The remesh stays as it is");
-  add_number(app, "--" + std::string(tetrahedra_edge_option.key), arguments.tetrahedra_edge,
-             tetrahedra_edge_option)
-      ->group(finer_settings);
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "the remesh");
   add_options(app, arguments.options);
 }
 
@@ -64,7 +57,9 @@ std::vector<NamedFile> named_simulation_files(const SimulationArguments& argumen
     files.push_back({"the signed distances", path});
     files.push_back({"a description of the signed distances", grid_description_path(path)});
   }
-  for (const std::string& path : arguments.tetrahedra) files.push_back({"the tetrahedra", path});
+  for (const std::string& path : arguments.tetrahedra.files) {
+    files.push_back({"the tetrahedra", path});
+  }
   return files;
 }
 
@@ -72,9 +67,7 @@ void check_simulation_arguments(const SimulationArguments& arguments) {
   check_simulation_options(arguments.options);
   for (const std::string& path : arguments.nodes) check_nodes_path(path, arguments.options);
   for (const std::string& path : arguments.grids) check_grid_path(path);
-  for (const std::string& path : arguments.tetrahedra) check_tetrahedra_file(path);
-  require_in_range(arguments.tetrahedra_edge, tetrahedra_edge_option);
-  if (!arguments.tetrahedra.empty()) require_tetrahedra();
+  check_tetrahedra_arguments(arguments.tetrahedra);
 }
 
 }  // namespace wscvt::program

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "output_paths.h"
+#include "tetrahedra_arguments.h"
 #include "toolbox/exchange/simulation_files.h"
 #include "toolbox/job/remesh_job.h"
 
@@ -15,8 +16,7 @@ namespace wscvt::program {
 struct SimulationArguments {
   std::vector<std::string> nodes;  ///< files; the ending selects the format
   std::vector<std::string> grids;  ///< files of signed distances; the ending selects the format
-  std::vector<std::string> tetrahedra;  ///< files; the ending selects the format
-  double tetrahedra_edge = 0.0;         ///< longest wanted, length; 0: as the remesh's
+  TetrahedraArguments tetrahedra;
   SimulationOptions options;
 };
 

@@ -11,6 +11,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/conforming/conforming_files.h"
 #include "toolbox/volume/label_grains.h"
 #include "work.h"
 #include "wscvt/base/error.h"
@@ -60,17 +61,50 @@ Extracted grains_of(const VolumeOfArray& array, const VolumeOptions& options,
   return extracted;
 }
 
+/// All grains at once, with common walls. No grain has a failure of its own.
+Extracted conforming_of(const VolumeOfArray& array, const VolumeOptions& options,
+                        ConformingOptions walls, const Execution& execution) {
+  LabelGrains labels([&] { return array.open(); }, array.name, options, execution.part(0.0, 0.1));
+  const std::vector<Label> taken = taken_labels(labels);
+  walls.smoothing = options.smoothing;
+  const ConformingGrains result =
+      conform_labels(labels.voxels(), taken, walls, execution.part(0.1, 1.0));
+  std::vector<IndexedMesh> meshes = grain_meshes(result);
+  Extracted extracted;
+  extracted.warnings = labels.warnings();
+  const Sentence warning = intersection_warning(result, taken);
+  if (!warning.empty()) extracted.warnings.push_back(warning);
+  for (std::size_t g = 0; g < taken.size(); ++g) {
+    const std::string name = labels.name_of(taken[g]);
+    ExtractedGrain& grain = extracted.grains[name.empty() ? taken[g] : std::stoull(name)];
+    grain.grain.mesh = std::move(meshes[g]);
+    grain.grain.pieces = result.grains[g].pieces;
+  }
+  return extracted;
+}
+
 py::dict extract(const py::object& labels, const std::array<double, 3>& voxel_size,
                  double background, std::int64_t smallest, bool at_border, int smoothing,
-                 int threads, const py::object& progress) {
+                 bool conforming, double edge_length, int nodes, int threads,
+                 const py::object& progress) {
   VolumeOptions options;
   options.background = background;
   options.smallest = smallest;
   options.at_border = at_border;
   options.smoothing = smoothing;
+  ConformingOptions walls;
+  walls.edge_length = edge_length;
+  walls.nodes = nodes;
+  check_conforming_options(walls);
+  if (!conforming && (edge_length > 0.0 || nodes > 0)) {
+    refuse("edge_length and nodes are only for conforming=True.");
+  }
   const VolumeOfArray array = volume_of(labels, "labels", voxel_size);
   const Extracted extracted = work_on(threads, progress, [&](const Execution& execution) {
-    return of_array([&] { return grains_of(array, options, execution); });
+    return of_array([&] {
+      return conforming ? conforming_of(array, options, walls, execution)
+                        : grains_of(array, options, execution);
+    });
   });
   for (const Sentence& warning : extracted.warnings) warn(warning);
   py::dict dict;
@@ -95,6 +129,7 @@ void bind_extract(py::module_& module) {
   module.def("extract", &extract, py::arg("labels"), py::arg("voxel_size"), py::kw_only(),
              py::arg("background") = defaults.background, py::arg("smallest") = defaults.smallest,
              py::arg("at_border") = defaults.at_border, py::arg("smoothing") = defaults.smoothing,
+             py::arg("conforming") = false, py::arg("edge_length") = 0.0, py::arg("nodes") = 0,
              py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 

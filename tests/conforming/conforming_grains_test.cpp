@@ -319,6 +319,30 @@ TEST(ConformingGrains, SameBytesAtAnyNumberOfThreads) {
   EXPECT_EQ(walls_vtu(one, labels), walls_vtu(two, labels));
 }
 
+TEST(ConformingGrains, EachGrainHasAboutTheWantedNodes) {
+  // A large and a small ball that touch, and cells that fill a volume.
+  const GrainVoxels balls = voxels_of(60, [](const Vector3& p) {
+    const double a = (p - Vector3(23.0, 30.0, 30.0)).norm() - 19.0;
+    const double b = (p - Vector3(49.0, 30.3, 29.6)).norm() - 9.0;
+    return std::min(a, b) > 0.0 ? -1 : a < b ? 0 : 1;
+  });
+  ConformingOptions options;
+  options.nodes = 150;
+  for (const bool are_balls : {true, false}) {
+    const std::size_t grains = are_balls ? 2 : 8;
+    const ConformingGrains result =
+        conform_grains(are_balls ? balls : random_cells(3, 48, 8, false), grains, VolumeGeometry(),
+                       options, Execution(1));
+    expect_conforming(result);
+    for (const ConformingGrain& grain : result.grains) {
+      // A wall's nodes count for both grains; lines and points have no choice.
+      EXPECT_NEAR(static_cast<double>(grain.nodes), 150.0, 30.0);
+    }
+  }
+  options.edge_length = 3.0;
+  EXPECT_ERROR(check_conforming_options(options), InvalidInput);
+}
+
 TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
   const auto refused = [](std::size_t grains, double edge) {
     return test::refusal(ErrorCode::InvalidInput, [&] { conformed(two_balls(), grains, edge); });

@@ -780,3 +780,19 @@ def test_each_function_says_its_arguments():
         for keyword in set(keywords_of_the_stub(name)) - set(wscvt.options()) - set(
                 wscvt.options("as-published")):
             assert keyword in getattr(wscvt, name).__doc__, (name, keyword)
+
+
+def test_extract_of_conforming_grains_shares_their_wall():
+    z, y, x = np.mgrid[:40, :40, :50] + 0.5
+    first = np.sqrt((x - 15) ** 2 + (y - 20) ** 2 + (z - 20) ** 2) - 12
+    second = np.sqrt((x - 36) ** 2 + (y - 20.3) ** 2 + (z - 19.6) ** 2) - 12
+    labels = np.where(np.minimum(first, second) > 0, 0, np.where(first < second, 3, 7))
+    meshes = wscvt.extract(labels, conforming=True, nodes=150)
+    assert sorted(meshes) == [3, 7]
+    corners = []
+    for vertices, faces in meshes.values():
+        assert abs(len(vertices) - 150) < 15
+        corners.append({tuple(sorted(map(tuple, vertices[face]))) for face in faces})
+    assert len(corners[0] & corners[1]) > 10  # to the bit
+    with pytest.raises(wscvt.Error, match="conforming=True"):
+        wscvt.extract(labels, edge_length=3)

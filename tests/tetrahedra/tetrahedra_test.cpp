@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -134,6 +135,65 @@ TEST_F(Tetrahedra, AreRefusedWhereThereAreNone) {
   EXPECT_ERROR(tetrahedra_in(crossed, 0.0), NumericalFailure);
   // After a failure the next one works.
   expect_filled(grain, tetrahedra_in(grain, 0.0));
+}
+
+/// Two halves of a cube that share the triangles of their wall.
+std::vector<IndexedMesh> halves() {
+  std::vector<IndexedMesh> bodies(2);
+  for (const bool is_upper : {false, true}) {
+    IndexedMesh& box = bodies[is_upper ? 1 : 0];
+    const double low = is_upper ? 1.0 : 0.0;
+    for (int k = 0; k < 8; ++k) {
+      box.points.emplace_back(k & 1, k >> 1 & 1, low + (k >> 2));
+    }
+    box.triangles = {{0, 3, 1}, {0, 2, 3}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                     {2, 7, 3}, {2, 6, 7}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  }
+  return bodies;
+}
+
+TEST_F(Tetrahedra, OfSeveralBodiesShareTheirWall) {
+  const std::vector<IndexedMesh> bodies = halves();
+  const TetrahedralMesh mesh = tetrahedra_in(bodies, "grain", {"3", "7"}, 0.4, Execution(1));
+  // The faces of single tetrahedra are the outer surface; each face of the wall has two, one of
+  // each body.
+  std::map<std::set<std::int32_t>, std::vector<std::int32_t>> at_face;
+  std::array<double, 2> volumes{};
+  for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k) {
+    volumes.at(mesh.bodies[k]) += volume(mesh, mesh.tetrahedra[k]);
+    for (const std::int32_t left_out : mesh.tetrahedra[k]) {
+      std::set<std::int32_t> face(mesh.tetrahedra[k].begin(), mesh.tetrahedra[k].end());
+      face.erase(left_out);
+      at_face[face].push_back(mesh.bodies[k]);
+    }
+  }
+  EXPECT_NEAR(volumes[0], 1.0, 1e-12);
+  EXPECT_NEAR(volumes[1], 1.0, 1e-12);
+  std::size_t on_wall = 0;
+  for (std::size_t t = 0; t < mesh.surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.surface.triangles[t];
+    const bool is_wall = mesh.sides[t][1] >= 0;
+    on_wall += is_wall ? 1U : 0U;
+    EXPECT_EQ(at_face.at({a, b, c}), is_wall ? std::vector<std::int32_t>({0, 1})
+                                             : std::vector<std::int32_t>({mesh.sides[t][0]}));
+  }
+  EXPECT_EQ(on_wall, 2U);
+  EXPECT_EQ(mesh.surface.triangles.size(), 22U);
+  for (const char* name : {"b.vtu", "b.msh", "b.inp"}) write_tetrahedra(path(name), mesh);
+  EXPECT_NE(content("b.vtu").find("Name=\"grain\""), std::string::npos);
+  const std::string msh = content("b.msh");
+  for (const char* name : {"\"surface_3\"", "\"surface_7\"", "\"wall_3_7\"", "\"grain_7\""}) {
+    EXPECT_NE(msh.find(name), std::string::npos) << name;
+  }
+  const std::string inp = content("b.inp");
+  EXPECT_NE(inp.find("ELSET=grain_7"), std::string::npos);
+  EXPECT_NE(inp.find("*SURFACE, NAME=wall_3_7"), std::string::npos);
+  IndexedMesh inward = bodies[1];
+  for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
+  const std::string said = test::refusal(ErrorCode::InvalidInput, [&] {
+    tetrahedra_in({bodies[0], inward}, "grain", {"3", "7"}, 0.4, Execution(1));
+  });
+  EXPECT_NE(said.find("The grain 7"), std::string::npos) << said;
 }
 
 TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {

@@ -250,6 +250,10 @@ def extract(labels, voxel_size=1.0, **options):
     smallest: min. number of voxels of a grain, 100 by default.
     at_border: include grains that touch the border and are cut by it. Off by default.
     smoothing: passes that smooth the voxels' steps, 0 to 1000, 20 by default.
+    conforming: remesh all grains at once. Grains that touch have the same vertices and faces on
+        their wall, to the bit. Off by default.
+    edge_length: of conforming grains, mean. 0 for three voxels.
+    nodes: of conforming grains, about this number of each instead of one edge length.
     threads: as for remesh.
     progress: as for remesh.
 

@@ -58,6 +58,18 @@ GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& lab
 
 }  // namespace
 
+std::vector<Label> taken_labels(const LabelGrains& grains) {
+  std::vector<Label> labels;
+  for (const LabelExtent& label : grains.labels()) {
+    if (grains.state(label) == LabelState::Taken) labels.push_back(label.label);
+  }
+  if (labels.empty()) {
+    refuse("No label is a grain to mesh. Give " + mention(at_border_option) + " or a smaller " +
+           mention(smallest_option) + ".");
+  }
+  return labels;
+}
+
 ConformingGrains conform_labels(LabelVolume& volume, const std::vector<Label>& labels,
                                 const ConformingOptions& options, const Execution& execution) {
   constexpr double reading = 0.05;

@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "toolbox/conforming/conforming_grains.h"
+#include "toolbox/volume/label_grains.h"
 #include "toolbox/volume/label_volume.h"
 
 namespace wscvt {
+
+/// Returns the labels that are grains, ascending. Throws Error(InvalidInput) if there are none.
+std::vector<Label> taken_labels(const LabelGrains& grains);
 
 /// Remeshes labels of a volume at once, in its coordinates. `labels`: those that become grains,
 /// ascending; all others become background. Reads the volume from its current row on. Throws Error

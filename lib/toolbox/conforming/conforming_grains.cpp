@@ -139,10 +139,19 @@ std::size_t compose(GrainVoxels& voxels, std::size_t grains) {
 
 }  // namespace
 
+void check_conforming_options(const ConformingOptions& options) {
+  require_in_range(options.edge_length, edge_length_option);
+  require_in_range(options.nodes, wall_nodes_option);
+  if (options.edge_length > 0.0 && options.nodes > 0) {
+    refuse("Give " + mention(edge_length_option) + " or " + mention(wall_nodes_option) +
+           ", not both.");
+  }
+}
+
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
                                 const Execution& execution) {
-  require_in_range(options.edge_length, edge_length_option);
+  check_conforming_options(options);
   if (grains == 0) refuse("There is no grain to remesh.");
   const double voxel = longest_voxel_edge(geometry);
   const double edge = options.edge_length > 0.0 ? options.edge_length : 3.0 * voxel;
@@ -184,7 +193,7 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
     edges.push_back(std::min(edge, portable::cbrt(volume) / edges_across));
   }
   WallRemesher remesher(dense, std::move(edges));
-  remesher.run(voxel, execution.part(0.4, 0.85));
+  remesher.run(voxel, options.nodes, execution.part(0.4, 0.85));
   const FinishedWalls finished =
       finish_walls(remesher.mesh(), volumes, voxel, execution.part(0.85, 1.0));
   result.points = std::move(remesher.mesh().points);

@@ -19,12 +19,21 @@ namespace wscvt {
 /// Options of conform_grains.
 struct ConformingOptions {
   double edge_length = 0.0;  ///< mean of all edges; length; 0: three voxels
-  int smoothing = 20;        ///< passes, see smoothed_surface
+  int nodes = 0;       ///< about so many of each grain, instead of edge_length; 0: as that says
+  int smoothing = 20;  ///< passes, see smoothed_surface
 };
 
 inline constexpr NumberOption<double> edge_length_option = {
     "edge-length", "mean edge length",  0.0, std::numeric_limits<double>::infinity(),
     Ends::Both,    "0 for three voxels"};
+
+inline constexpr NumberOption<int> wall_nodes_option = {
+    "nodes",    "about this number of nodes of each grain",
+    0,          1000000,
+    Ends::Both, "instead of one edge length. 0: as the edge length says"};
+
+/// Throws Error(InvalidInput) for options out of range and for both an edge length and nodes.
+void check_conforming_options(const ConformingOptions& options);
 
 /// A grain among others.
 struct ConformingGrain {
@@ -75,11 +84,13 @@ struct ConformingGrains {
 ///
 /// The edges are even along walls and lines. Their mean is the wanted length if the grains are
 /// large against it; a grain whose volume is that of a cube of less than two edges along a side has
-/// shorter ones. Triangles that intersect are parted as finish_walls says; `intersections` counts
-/// those that are left, usually at contacts of few faces of voxels. The result does not depend on
-/// the number of threads. Throws Error:
-/// InvalidInput without grains, for a grain without voxels, and for an edge length below a voxel's;
-/// NumericalFailure as make_well_composed does; Cancelled.
+/// shorter ones. With `nodes` each grain has its own edge length, at a wall the geometric mean of
+/// both; a wall's nodes count for both grains, so the numbers are only near the wanted one, and no
+/// edges are below a voxel's. Triangles that intersect are parted as finish_walls says;
+/// `intersections` counts those that are left, usually at contacts of few faces of voxels. The
+/// result does not depend on the number of threads. Throws Error: InvalidInput without grains, for
+/// a grain without voxels, and for an edge length below a voxel's; NumericalFailure as
+/// make_well_composed does; Cancelled.
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
                                 const Execution& execution);

@@ -197,7 +197,25 @@ void WallRemesher::improve(int rounds, const Execution& execution) {
   }
 }
 
-void WallRemesher::run(double voxel, const Execution& execution) {
+void WallRemesher::find_edges(int nodes, double least) {
+  // A closed triangle mesh without handles has half as many nodes as triangles, and two.
+  std::vector<double> counts(edges_.size(), 2.0);
+  for (const WallTriangle& t : mesh_.triangles) {
+    if (t.corners[0] < 0) continue;
+    counts[index(t.inner)] += 0.5;
+    if (t.outer >= 0) counts[index(t.outer)] += 0.5;
+  }
+  for (std::size_t g = 0; g < edges_.size(); ++g) {
+    edges_[g] = std::max(least, edges_[g] * std::sqrt(counts[g] / nodes));
+  }
+}
+
+void WallRemesher::run(double voxel, int nodes, const Execution& execution) {
+  if (nodes > 0) {
+    // The dense triangles have a mean area of half a voxel's face, and edges of about a voxel.
+    std::fill(edges_.begin(), edges_.end(), voxel);
+    find_edges(nodes, voxel);
+  }
   const double longest = *std::max_element(edges_.begin(), edges_.end());
   int level = 0;
   for (double most = voxel; most < longest; most *= 1.6) {
@@ -208,10 +226,16 @@ void WallRemesher::run(double voxel, const Execution& execution) {
     mesh_.compact();
     relax(1, execution);
   }
-  for (int round = 0; round < 3; ++round) {
-    execution.report(0.3 + 0.2 * round, "Remeshing the walls");
+  // Walls belong to two grains, so that numbers of nodes settle more slowly.
+  const int rounds = nodes > 0 ? 6 : 3;
+  for (int round = 0; round < rounds; ++round) {
+    execution.report(0.3 + 0.6 * round / rounds, "Remeshing the walls");
     improve(2, execution);
-    factor_ = std::clamp(factor_ / mean_ratio(), 0.5, 2.0);
+    if (nodes > 0) {
+      find_edges(nodes, voxel);
+    } else {
+      factor_ = std::clamp(factor_ / mean_ratio(), 0.5, 2.0);
+    }
   }
   improve(2, execution);
   for (int round = 0; round < 3; ++round) {

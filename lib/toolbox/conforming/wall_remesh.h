@@ -19,7 +19,8 @@ class WallRemesher {
   WallRemesher(const DenseWalls& dense, std::vector<double> edges);
 
   /// Remeshes all walls from the dense ones. `voxel`: its edge; length.
-  void run(double voxel, const Execution& execution);
+  /// `nodes`: wanted of each grain; 0: the edge lengths decide.
+  void run(double voxel, int nodes, const Execution& execution);
 
   WallMesh& mesh() { return mesh_; }
 
@@ -35,6 +36,7 @@ class WallRemesher {
   void relax(int times, const Execution& execution);
   Vector3 relaxed(std::int32_t v) const;
   WallPoint placed(std::int32_t v, const Vector3& target) const;
+  void find_edges(int nodes, double least);
   void improve(int rounds, const Execution& execution);
 
   const DenseWalls& dense_;

@@ -26,6 +26,54 @@ std::string corner_text(const Corners& corners, std::int32_t first, const std::s
   return text;
 }
 
+/// A named group of triangles or tetrahedra.
+struct Part {
+  std::string name;
+  std::vector<std::size_t> members;
+  std::array<std::int32_t, 2> sides = {0, -1};  ///< of a surface: the bodies
+};
+
+std::vector<Part> surfaces_of(const TetrahedralMesh& mesh) {
+  std::map<std::array<std::int32_t, 2>, std::vector<std::size_t>> by_sides;
+  for (std::size_t t = 0; t < mesh.surface.triangles.size(); ++t) {
+    by_sides[mesh.names.empty() ? std::array<std::int32_t, 2>{0, -1} : mesh.sides[t]].push_back(t);
+  }
+  std::vector<Part> parts;
+  for (auto& [sides, triangles] : by_sides) {
+    std::string name = "surface";
+    if (!mesh.names.empty()) {
+      name = (sides[1] < 0 ? "surface_" : "wall_") + mesh.names[sides[0]] +
+             (sides[1] < 0 ? "" : "_" + mesh.names[sides[1]]);
+    }
+    parts.push_back({name, std::move(triangles), sides});
+  }
+  return parts;
+}
+
+std::vector<Part> volumes_of(const TetrahedralMesh& mesh) {
+  std::vector<Part> parts(std::max<std::size_t>(mesh.names.size(), 1));
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    parts[b].name = mesh.kind + (mesh.names.empty() ? "" : "_" + mesh.names[b]);
+  }
+  for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k) {
+    parts[mesh.names.empty() ? 0 : mesh.bodies[k]].members.push_back(k);
+  }
+  return parts;
+}
+
+/// Returns the body of each tetrahedron as cell data, if the names are numbers.
+std::string vtu_bodies(const TetrahedralMesh& mesh) {
+  const bool are_numbers =
+      std::all_of(mesh.names.begin(), mesh.names.end(), [](const std::string& name) {
+        return !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+      });
+  if (mesh.names.empty() || !are_numbers) return "";
+  std::string values;
+  for (const std::int32_t body : mesh.bodies) values += mesh.names[body] + "\n";
+  return "<CellData>\n" + vtk_data_array("Int64", "Name=\"" + mesh.kind + "\"", values) +
+         "</CellData>\n";
+}
+
 std::string vtu_text(const TetrahedralMesh& mesh) {
   const std::vector<Vector3>& points = mesh.surface.points;
   std::string places;
@@ -41,7 +89,7 @@ std::string vtu_text(const TetrahedralMesh& mesh) {
   return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
          "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
          std::to_string(points.size()) + "\" NumberOfCells=\"" +
-         std::to_string(mesh.tetrahedra.size()) + "\">\n<Points>\n" +
+         std::to_string(mesh.tetrahedra.size()) + "\">\n" + vtu_bodies(mesh) + "<Points>\n" +
          vtk_data_array("Float64", "Name=\"Points\" NumberOfComponents=\"3\"", places) +
          "</Points>\n<Cells>\n" + vtk_data_array("Int64", "Name=\"connectivity\"", corners) +
          vtk_data_array("Int64", "Name=\"offsets\"", ends) +
@@ -59,30 +107,55 @@ std::string gmsh_text(const TetrahedralMesh& mesh) {
   }
   const std::string box = vector_text(low) + " " + vector_text(high);
   const std::string nodes = std::to_string(points.size());
-  const std::size_t triangles = mesh.surface.triangles.size();
-  const std::string elements = std::to_string(triangles + mesh.tetrahedra.size());
-  // Surface 1 bounds volume 1. All nodes are given with the volume.
-  std::string text =
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"surface\"\n3 2 "
-      "\"grain\"\n$EndPhysicalNames\n$Entities\n0 0 1 1\n1 " +
-      box + " 1 1 0\n1 " + box + " 1 2 1 1\n$EndEntities\n$Nodes\n1 " + nodes + " 1 " + nodes +
-      "\n3 1 0 " + nodes + "\n";
+  const std::vector<Part> surfaces = surfaces_of(mesh);
+  const std::vector<Part> volumes = volumes_of(mesh);
+  const std::string all = std::to_string(mesh.surface.triangles.size() + mesh.tetrahedra.size());
+  std::string names;
+  std::string entities;
+  std::string elements;
+  std::size_t number = 0;
+  const auto add_elements = [&](const Part& part, const std::string& entity, const auto& corners) {
+    elements += entity + " " + std::to_string(part.members.size()) + "\n";
+    for (const std::size_t k : part.members) {
+      elements += std::to_string(++number) + " " + corner_text(corners[k], 1, " ") + "\n";
+    }
+  };
+  std::vector<std::string> bounds(volumes.size());
+  std::vector<std::size_t> bound_counts(volumes.size(), 0);
+  std::size_t tag = 0;
+  // Physical groups have their own numbers, the surfaces' first.
+  for (const Part& part : surfaces) {
+    const std::string own = std::to_string(++tag);
+    names += "2 " + own + " \"" + part.name + "\"\n";
+    entities += own + " " + box + " 1 " + own + " 0\n";
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (part.sides[side] < 0) continue;
+      bounds[part.sides[side]] += (side == 0 ? " " : " -") + own;
+      ++bound_counts[part.sides[side]];
+    }
+    add_elements(part, "2 " + own + " 2", mesh.surface.triangles);
+  }
+  for (std::size_t b = 0; b < volumes.size(); ++b) {
+    const std::string own = std::to_string(b + 1);
+    const std::string group = std::to_string(++tag);
+    names += "3 " + group + " \"" + volumes[b].name + "\"\n";
+    entities +=
+        own + " " + box + " 1 " + group + " " + std::to_string(bound_counts[b]) + bounds[b] + "\n";
+    add_elements(volumes[b], "3 " + own + " 4", mesh.tetrahedra);
+  }
+  // All nodes are given with the first volume.
+  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" +
+                     std::to_string(tag) + "\n" + names + "$EndPhysicalNames\n$Entities\n0 0 " +
+                     std::to_string(surfaces.size()) + " " + std::to_string(volumes.size()) + "\n" +
+                     entities + "$EndEntities\n$Nodes\n1 " + nodes + " 1 " + nodes + "\n3 1 0 " +
+                     nodes + "\n";
   for (std::size_t i = 1; i <= points.size(); ++i) text += std::to_string(i) + "\n";
   for (const Vector3& p : points) text += vector_text(p) + "\n";
-  text += "$EndNodes\n$Elements\n2 " + elements + " 1 " + elements + "\n2 1 2 " +
-          std::to_string(triangles) + "\n";
-  std::size_t number = 0;
-  for (const Triangle& t : mesh.surface.triangles) {
-    text += std::to_string(++number) + " " + corner_text(t, 1, " ") + "\n";
-  }
-  text += "3 1 4 " + std::to_string(mesh.tetrahedra.size()) + "\n";
-  for (const Tetrahedron& t : mesh.tetrahedra) {
-    text += std::to_string(++number) + " " + corner_text(t, 1, " ") + "\n";
-  }
-  return text + "$EndElements\n";
+  return text + "$EndNodes\n$Elements\n" + std::to_string(tag) + " " + all + " 1 " + all + "\n" +
+         elements + "$EndElements\n";
 }
 
-/// Returns rows of "element, face": the faces of the tetrahedra that are the surface.
+/// Returns the surfaces, as rows of "element, face". Of a wall the first body's faces.
 std::string surface_rows(const TetrahedralMesh& mesh) {
   // Faces of C3D4: 1-2-3, 1-4-2, 2-4-3, 3-4-1.
   constexpr std::array<std::array<std::size_t, 3>, 4> faces = {
@@ -96,12 +169,15 @@ std::string surface_rows(const TetrahedralMesh& mesh) {
     const Tetrahedron& t = mesh.tetrahedra[k];
     for (std::size_t f = 0; f < 4; ++f) {
       const auto& [a, b, c] = faces[f];
-      rows[sorted({t[a], t[b], t[c]})] =
-          std::to_string(k + 1) + ", S" + std::to_string(f + 1) + "\n";
+      rows.emplace(sorted({t[a], t[b], t[c]}),
+                   std::to_string(k + 1) + ", S" + std::to_string(f + 1) + "\n");
     }
   }
   std::string text;
-  for (const Triangle& t : mesh.surface.triangles) text += rows.at(sorted(t));
+  for (const Part& part : surfaces_of(mesh)) {
+    text += "*SURFACE, NAME=" + part.name + ", TYPE=ELEMENT\n";
+    for (const std::size_t t : part.members) text += rows.at(sorted(mesh.surface.triangles[t]));
+  }
   return text;
 }
 
@@ -112,14 +188,16 @@ std::string abaqus_text(const TetrahedralMesh& mesh) {
     for (const double x : mesh.surface.points[i]) text += ", " + format_exact(kept_by_abaqus(x));
     text += "\n";
   }
-  text += "*ELEMENT, TYPE=C3D4, ELSET=grain\n";
-  for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k) {
-    text += std::to_string(k + 1) + ", " + corner_text(mesh.tetrahedra[k], 1, ", ") + "\n";
+  for (const Part& part : volumes_of(mesh)) {
+    text += "*ELEMENT, TYPE=C3D4, ELSET=" + part.name + "\n";
+    for (const std::size_t k : part.members) {
+      text += std::to_string(k + 1) + ", " + corner_text(mesh.tetrahedra[k], 1, ", ") + "\n";
+    }
   }
   std::int32_t last = 0;
   for (const Triangle& t : mesh.surface.triangles) last = std::max({last, t[0], t[1], t[2]});
-  return text + "*NSET, NSET=surface_nodes, GENERATE\n1, " + std::to_string(last + 1) +
-         "\n*SURFACE, NAME=surface, TYPE=ELEMENT\n" + surface_rows(mesh);
+  return text + "*NSET, NSET=surface_nodes, GENERATE\n1, " + std::to_string(last + 1) + "\n" +
+         surface_rows(mesh);
 }
 
 }  // namespace

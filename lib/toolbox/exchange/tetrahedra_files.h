@@ -15,6 +15,9 @@ void check_tetrahedra_file(const std::string& path);
 /// - .msh: Gmsh 4.1, the physical surface "surface" and the physical volume "grain";
 /// - .inp: Abaqus and CalculiX, elements C3D4 in the set "grain", the surface "surface" of their
 ///   faces, and the set of its nodes, "surface_nodes".
+/// Of several bodies .vtu has the body's name as cell data, if it is a whole number. The others
+/// have a volume or set "grain_A" for each, the surface "surface_A" against the outside, and
+/// "wall_A_B" between two; .inp has the faces of A's elements.
 /// Numbers of .vtu and .msh read back to the same bits, those of .inp have at most 20 characters.
 /// Throws Error as check_tetrahedra_file and write_file.
 void write_tetrahedra(const std::string& path, const TetrahedralMesh& mesh);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -127,11 +128,84 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   return mesh;
 }
 
+namespace {
+
+/// Numbers points by their bits.
+class PointNumbers {
+ public:
+  explicit PointNumbers(std::vector<Vector3>& points) : points_(points) {}
+
+  std::int32_t of(const Vector3& p) {
+    const auto [at, is_new] = numbers_.emplace(std::array<double, 3>{p.x(), p.y(), p.z()},
+                                               static_cast<std::int32_t>(points_.size()));
+    if (is_new) points_.push_back(p);
+    return at->second;
+  }
+
+ private:
+  std::vector<Vector3>& points_;
+  std::map<std::array<double, 3>, std::int32_t> numbers_;
+};
+
+}  // namespace
+
+TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std::string& kind,
+                              const std::vector<std::string>& names, double edge,
+                              const Execution& execution) {
+  TetrahedralMesh all;
+  all.kind = kind;
+  all.names = names;
+  std::vector<TetrahedralMesh> filled;
+  std::vector<std::vector<std::int32_t>> numbers(bodies.size());
+  PointNumbers surface_points(all.surface.points);
+  std::map<Triangle, std::size_t> triangle_of;  // by sorted corners
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto share = [&](std::size_t k) {
+      return static_cast<double>(k) / static_cast<double>(bodies.size());
+    };
+    try {
+      filled.push_back(tetrahedra_in(bodies[b], edge, execution.part(share(b), share(b + 1))));
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::Cancelled) throw;
+      throw Error(error.code(), "The " + kind + " " + names[b] + ": " + error.what());
+    }
+    if (filled[b].smallest_dihedral < filled[all.flattest].smallest_dihedral) all.flattest = b;
+    for (const Vector3& p : bodies[b].points) numbers[b].push_back(surface_points.of(p));
+    for (const Triangle& t : bodies[b].triangles) {
+      const Triangle corners = {numbers[b][t[0]], numbers[b][t[1]], numbers[b][t[2]]};
+      Triangle sorted = corners;
+      std::sort(sorted.begin(), sorted.end());
+      const auto [at, is_new] = triangle_of.emplace(sorted, all.sides.size());
+      if (is_new) {
+        all.surface.triangles.push_back(corners);
+        all.sides.push_back({static_cast<std::int32_t>(b), -1});
+      } else {
+        all.sides[at->second][1] = static_cast<std::int32_t>(b);
+      }
+    }
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::vector<Vector3>& points = filled[b].surface.points;
+    for (std::size_t i = numbers[b].size(); i < points.size(); ++i) {
+      numbers[b].push_back(static_cast<std::int32_t>(all.surface.points.size()));
+      all.surface.points.push_back(points[i]);
+    }
+    for (const Tetrahedron& t : filled[b].tetrahedra) {
+      all.tetrahedra.push_back(
+          {numbers[b][t[0]], numbers[b][t[1]], numbers[b][t[2]], numbers[b][t[3]]});
+      all.bodies.push_back(static_cast<std::int32_t>(b));
+    }
+  }
+  measure(all);
+  return all;
+}
+
 std::string tetrahedra_line(const TetrahedralMesh& mesh) {
   return "Tetrahedra: " + std::to_string(mesh.tetrahedra.size()) + " of " +
          std::to_string(mesh.surface.points.size()) + " points, dihedral angles " +
-         format_number(mesh.smallest_dihedral, 3) + " to " +
-         format_number(mesh.largest_dihedral, 4) + " degrees, mean edge " +
+         format_number(mesh.smallest_dihedral, 3) +
+         (mesh.names.empty() ? "" : " (" + mesh.kind + " " + mesh.names[mesh.flattest] + ")") +
+         " to " + format_number(mesh.largest_dihedral, 4) + " degrees, mean edge " +
          format_number(mesh.mean_edge, 3);
 }
 

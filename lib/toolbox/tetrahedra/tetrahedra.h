@@ -16,7 +16,7 @@ namespace wscvt {
 /// Four points by their numbers. The first three are counter-clockwise seen from the fourth.
 using Tetrahedron = std::array<std::int32_t, 4>;
 
-/// A body of tetrahedra.
+/// A body of tetrahedra, or several with common walls.
 struct TetrahedralMesh {
   /// Points and triangles of the surface, and inner points behind the surface's.
   IndexedMesh surface;
@@ -24,6 +24,12 @@ struct TetrahedralMesh {
   double smallest_dihedral = 180.0;  ///< angle between two faces of a tetrahedron, degrees
   double largest_dihedral = 0.0;     ///< degrees
   double mean_edge = 0.0;            ///< over the edges of all tetrahedra, length
+  std::string kind = "grain";        ///< what a body is, for names
+  std::vector<std::string> names;    ///< of several bodies, such as labels; empty: a single one
+  std::vector<std::int32_t> bodies;  ///< of several: of each tetrahedron, ascending
+  /// Of several bodies: those inside and outside of each triangle; -1 outside: none.
+  std::vector<std::array<std::int32_t, 2>> sides;
+  std::size_t flattest = 0;  ///< the body with the smallest dihedral angle
 };
 
 inline constexpr NumberOption<double> tetrahedra_edge_option = {
@@ -48,6 +54,13 @@ void require_tetrahedra();
 /// without volume; NumericalFailure if Gmsh cannot fill the mesh, as when it intersects itself;
 /// Cancelled before the work.
 TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
+                              const Execution& execution = Execution());
+
+/// Fills several bodies, each by itself. Where two have triangles of the same points, to the bit,
+/// they share them. `kind` and `names` are for files and messages. Throws Error as above, with the
+/// name of the body.
+TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std::string& kind,
+                              const std::vector<std::string>& names, double edge,
                               const Execution& execution = Execution());
 
 /// Returns a line for a log: numbers and angles.
