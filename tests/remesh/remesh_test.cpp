@@ -582,6 +582,31 @@ TEST(Remesh, AFlatLeafDoesNotCrash) {
   expect_promises(remesh(disc, options_of(50, Weighting::RadialDistance), Execution(1)), 50);
 }
 
+TEST(Remesh, ANumberOfNodesThatDoesNotReachALongBodyIsRefusedWithOneThatDoes) {
+  const IndexedMesh needle = test::subdivided(test::box(20.0, 0.5, 0.5), 4);
+  RemeshOptions options;
+  options.node_count = 12;
+  std::string sentence;
+  try {
+    remesh(needle, options, Execution(1));
+  } catch (const Error& error) {
+    sentence = error.what();
+  }
+  ASSERT_NE(sentence.find("needs more than 12 nodes: "), std::string::npos) << sentence;
+  const std::size_t at = sentence.find(". ", sentence.find("nodes: ")) + 2;
+  options.node_count = std::stoi(sentence.substr(at));
+  EXPECT_GT(options.node_count, 12) << sentence;
+  const RemeshResult enough = remesh(needle, options, Execution(1));
+  for (const double end : {-10.0, 10.0}) {
+    double nearest = 100.0;
+    for (const Vector3& p : enough.mesh.points) nearest = std::min(nearest, std::abs(p.x() - end));
+    EXPECT_LT(nearest, 1.0) << sentence;
+  }
+  // A compact body can have four nodes.
+  options.node_count = 4;
+  EXPECT_EQ(remesh(test::sphere(3), options, Execution(1)).mesh.points.size(), 4U);
+}
+
 TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
   const Ellipsoid ellipsoid(Vector3(13.0, 9.0, 7.0));
   for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature}) {

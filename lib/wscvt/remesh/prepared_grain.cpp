@@ -11,6 +11,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
 #include "wscvt/remesh/remesh_units.h"
@@ -150,29 +151,42 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
 
 namespace {
 
-/// Whether a remesh encloses nothing, or intersects itself although it has few nodes.
-bool is_unusable(const IndexedMesh& mesh, const Execution& execution) {
+/// Why a remesh has too few nodes for a thin or long body, as the end of a sentence; empty if it
+/// has not.
+std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
+                    const IndexedMesh& mesh, const Execution& execution) {
+  if (!(volume_of(mesh, execution) > 0.0)) return "their mesh encloses no volume";
   constexpr std::size_t few = 200;
-  if (!(volume_of(mesh, execution) > 0.0)) return true;
-  return mesh.points.size() < few && !self_intersections(mesh, execution).empty();
+  if (mesh.points.size() >= few) return "";
+  if (!self_intersections(mesh, execution).empty()) return "triangles of their mesh intersect";
+  // As published, warnings say that the remesh is another body.
+  if (std::get_if<OnScanOptions>(&options.method) == nullptr) return "";
+  // In equivalent radii. A tetrahedron with the volume of a ball is off by 0.17.
+  constexpr double beside = 0.75;
+  constexpr std::size_t samples = 1000;
+  if (rms_distance(grain.scan.mesh, mesh, samples, execution) > beside) {
+    return "their mesh does not reach all of it";
+  }
+  return "";
 }
 
 /// Refuses a number of nodes that is too small for a thin or long body, with one that was tried and
 /// is enough. If none is, refuses only a remesh that encloses nothing.
-void refuse_too_few(const PreparedGrain& grain, const IndexedMesh& mesh,
-                    const Execution& execution) {
-  if (!is_unusable(mesh, execution)) return;
+void refuse_too_few(const PreparedGrain& grain, const RemeshOptions& options,
+                    const IndexedMesh& mesh, const Execution& execution) {
+  const std::string reason = too_few(grain, options, mesh, execution);
+  if (reason.empty()) return;
   const auto count = static_cast<int>(mesh.points.size());
-  const bool is_empty = !(volume_of(mesh, execution) > 0.0);
+  const std::string needs = "So long or thin a body needs more than " + std::to_string(count) +
+                            " nodes: " + reason + ". ";
   for (const int times : {2, 3, 5, 10}) {
-    if (is_unusable(grain.method->place(times * count, execution).mesh, execution)) continue;
-    refuse("So long or thin a body needs more than " + std::to_string(count) + " nodes: " +
-           (is_empty ? "their mesh encloses no volume. " : "triangles of their mesh intersect. ") +
-           std::to_string(times * count) + " were tried and are enough. Use that number or more.");
+    const Nodes tried = grain.method->place(times * count, execution);
+    if (!too_few(grain, options, tried.mesh, execution).empty()) continue;
+    refuse(needs + std::to_string(times * count) +
+           " were tried and are enough. Use that number or more.");
   }
-  if (!is_empty) return;
-  refuse("So long or thin a body needs more than " + std::to_string(count) +
-         " nodes: their mesh encloses no volume. Up to " + std::to_string(10 * count) +
+  if (volume_of(mesh, execution) > 0.0) return;
+  refuse(needs + "Up to " + std::to_string(10 * count) +
          " were tried and are not enough. Use more.");
 }
 
@@ -184,7 +198,7 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.options = options;
   result.options.node_count = node_count;
   Nodes nodes = grain.method->place(node_count, execution.part(0.0, 0.9));
-  if (!searches(options)) refuse_too_few(grain, nodes.mesh, execution);
+  if (!searches(options)) refuse_too_few(grain, options, nodes.mesh, execution);
   result.mesh = std::move(nodes.mesh);
   result.cell_areas = std::move(nodes.cell_areas);
   result.curvatures = std::move(nodes.curvatures);
