@@ -57,6 +57,12 @@ TEST(Coordinates, TheStepOfSinglePrecisionIsTold) {
   EXPECT_NEAR(std::stod(steps[1]), 100.0 / 128.0 / edge, 1.0);
 }
 
+TEST(Coordinates, OfVerticesWithoutAFaceDoNotCount) {
+  IndexedMesh mesh = rounded(test::lumpy(4), Vector3::Zero(), 0.0);
+  mesh.points.emplace_back(1e9, 0, 0);
+  EXPECT_EQ(precision_warning(mesh), "");
+}
+
 TEST(Coordinates, TooFewDecimalsAreNoticed) {
   const IndexedMesh mesh = test::lumpy(5);
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 1e-4)), "");

@@ -44,10 +44,15 @@ std::size_t collapsed_faces(const IndexedMesh& mesh) {
       }));
 }
 
+/// Asks the corners of the faces, because other vertices may lie anywhere.
 template <class Fits>
-bool all_coordinates(const std::vector<Vector3>& points, const Fits& fits) {
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Vector3& p) { return fits(p.x()) && fits(p.y()) && fits(p.z()); });
+bool all_coordinates(const IndexedMesh& mesh, const Fits& fits) {
+  return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::int32_t v) {
+      const Vector3& p = mesh.points[v];
+      return fits(p.x()) && fits(p.y()) && fits(p.z());
+    });
+  });
 }
 
 /// Whether a number has at most this many decimals.
@@ -84,16 +89,15 @@ void check_scan_size(const Vector3& extents) {
 
 namespace {
 
-/// Whether all corners are valid indices, the mean edge is above 0 and all points are finite.
+/// Whether all corners are valid indices and finite, and the mean edge is above 0.
 bool is_measurable(const IndexedMesh& mesh) {
   const auto count = static_cast<std::int64_t>(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) {
-      if (v < 0 || v >= count) return false;
+      if (v < 0 || v >= count || !mesh.points[v].allFinite()) return false;
     }
   }
-  return mean_edge(mesh) > 0.0 && std::all_of(mesh.points.begin(), mesh.points.end(),
-                                              [](const Vector3& p) { return p.allFinite(); });
+  return mean_edge(mesh) > 0.0;
 }
 
 std::string lost(std::size_t faces) {
@@ -106,11 +110,14 @@ std::string lost(std::size_t faces) {
 std::string single_precision_warning(const IndexedMesh& mesh) {
   if (!is_measurable(mesh)) return "";
   double largest = 0.0;
-  for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t)
+      largest = std::max(largest, mesh.points[v].cwiseAbs().maxCoeff());
+  }
   const double edge = mean_edge(mesh);
   // The step of floats as large as the largest coordinate; floats have 24 binary digits.
   const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
-  if (float_step > coarse_step * edge && all_coordinates(mesh.points, [](double value) {
+  if (float_step > coarse_step * edge && all_coordinates(mesh, [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value;
       })) {
     return "The scan is so far from the origin that its coordinates, in single precision, have "
@@ -128,9 +135,8 @@ std::string precision_warning(const IndexedMesh& mesh) {
   const double edge = mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.
   const double power_of_ten = portable::pow(10.0, std::floor(-portable::log10(coarse_step * edge)));
-  if (!std::isfinite(power_of_ten) || !all_coordinates(mesh.points, [&](double value) {
-        return has_decimals(value, power_of_ten);
-      })) {
+  if (!std::isfinite(power_of_ten) ||
+      !all_coordinates(mesh, [&](double value) { return has_decimals(value, power_of_ten); })) {
     return "";
   }
   const std::size_t collapsed = collapsed_faces(mesh);
