@@ -20,6 +20,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/shrink_wrap.h"
+#include "wscvt/repair/weld.h"
 
 namespace wscvt {
 namespace {
@@ -394,6 +395,35 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   EXPECT_NEAR(checked.report.filled_area_fraction, 1.0 / 3.0, 0.02);
   // The rim runs up and down about the equator by half a row of faces, 0.04.
   EXPECT_NEAR(checked.report.volume, 2.0 * test::pi / 3.0, 0.04 * test::pi);
+}
+
+TEST(MeshCheck, NamesTheDistanceThatClosesASeam) {
+  // Two halves with corners of their own, too far apart to be merged unasked.
+  const IndexedMesh ball = sphere(4);
+  IndexedMesh halves[2];
+  for (const Triangle& t : ball.triangles) {
+    const bool upper = ball.points[t[0]].z() + ball.points[t[1]].z() + ball.points[t[2]].z() > 0;
+    halves[upper ? 1 : 0].triangles.push_back(t);
+  }
+  halves[0].points = halves[1].points = ball.points;
+  for (Vector3& p : halves[1].points) p += Vector3::Constant(1e-5);
+  const IndexedMesh open = joined(halves[0], halves[1]);
+  for (const double limit : {5.0, 100.0}) {
+    MeshCheckOptions options;
+    options.repaired_area_limit_percent = limit;
+    const std::string sentence = refusal(open, options);
+    expect_mentions(sentence, {"Merge Close Vertices", "--shrink-wrap"});
+    std::smatch named;
+    ASSERT_TRUE(std::regex_search(sentence, named, std::regex("distance of ([0-9.e-]+[0-9])")))
+        << sentence;
+    IndexedMesh merged = open;
+    const Weld weld = find_equal_points(merged.points, box_of_faces(merged, Execution(1)),
+                                        std::stod(named[1]), Execution(1));
+    for (Triangle& t : merged.triangles) {
+      for (std::int32_t& v : t) v = weld.first[static_cast<std::size_t>(v)];
+    }
+    EXPECT_NEAR(check(merged).report.volume, check(ball).report.volume, 1e-3);
+  }
 }
 
 /// A ball without its cap above a height.

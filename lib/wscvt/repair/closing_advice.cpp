@@ -25,6 +25,13 @@ std::string surface_of_points_advice() {
          "Simplification and Reconstruction > Surface Reconstruction: Screened Poisson.";
 }
 
+Sentence open_seam_sentence(double distance) {
+  return "The mesh is open along seams: corners of its faces lie " + format_number(distance, 2) +
+         " from others. Merge them, in MeshLab by Filters > Cleaning and Repairing > Merge Close "
+         "Vertices with a Merging distance of " +
+         format_number(2.0 * distance, 2) + ". " + wrap_advice();
+}
+
 std::string merged_warning(std::size_t corners, double distance) {
   return std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
          " of faces along open edges lay up to " + format_number(distance, 2) +

@@ -26,6 +26,9 @@ std::string where_meshlab_closes();
 /// Returns a sentence for points that do not have exactly one radius in each direction.
 std::string surface_of_points_advice();
 
+/// Returns sentences on a mesh whose open edges lie up to `distance` (length) from each other.
+Sentence open_seam_sentence(double distance);
+
 /// Returns a sentence on corners of open edges that were merged (see find_seams in weld.h);
 /// `distance` in the mesh's length.
 std::string merged_warning(std::size_t corners, double distance);

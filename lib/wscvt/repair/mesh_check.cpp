@@ -96,7 +96,8 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
 }
 
 /// Reports the other components, and refuses the mesh if the outer components are too large.
-void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& others,
+/// `seam`: distance of open edges from each other, 0 if they are no seam.
+void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& others, double seam,
                   const MeshCheckOptions& options, const Execution& execution,
                   MeshCheckReport& report) {
   report.components = others.size() + 1;
@@ -115,6 +116,7 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   report.inner_volume_fraction = inner_volume / report.volume;
   report.dropped_volume_fraction = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_fraction > options.dropped_volume_limit) {
+    if (seam > 0.0) refuse(open_seam_sentence(seam));
     refuse("The mesh has " + std::to_string(report.components - report.inner_components) +
            " separate bodies and the largest has only " +
            format_percent(1.0 - report.dropped_volume_fraction) +
@@ -125,12 +127,13 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
 }
 
 /// Refuses the mesh if more area was repaired than allowed. `widest_share`: width of the widest
-/// hole / diagonal of the bounding box.
+/// hole / diagonal of the bounding box. `seam` as in judge_others.
 void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
-                  const MeshCheckReport& report) {
+                  double seam, const MeshCheckReport& report) {
   const double mended = report.flap_area_fraction + report.filled_area_fraction;
   const double limit = 0.01 * options.repaired_area_limit_percent;
   if (!(mended > limit)) return;
+  if (seam > 0.0) refuse(open_seam_sentence(seam));
   std::string found;
   if (report.non_manifold_edges > 0) {
     found = count_of(report.non_manifold_edges, "non-manifold edge") +
@@ -472,7 +475,10 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   }
   FilledHoles filled;
   const std::size_t boundary_edges = components.list[main].boundary_edges;
+  double seam = 0.0;
   if (boundary_edges > 0) {
+    constexpr double wide = 1000.0;  // a seam of up to 1e-3 of the diagonal
+    seam = find_seams(ringed.mesh(), ringed.rings(), wide * diagonal, execution).distance;
     filled = fill_holes_of(ringed, components, main, report);
     look();
     // The side of an open surface's volume was a guess.
@@ -494,8 +500,8 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.back_to_back_area_fraction = duplicates.folded_area / report.area;
   report.flap_area_fraction = flap_area / report.area;
   report.filled_area_fraction = filled.area / report.area;
-  judge_repair(options, boundary_edges, filled.widest / diagonal, report);
-  judge_others(mesh, others, options, execution, report);
+  judge_repair(options, boundary_edges, filled.widest / diagonal, seam, report);
+  judge_others(mesh, others, seam, options, execution, report);
   report.has_voxel_steps = has_voxel_steps(mesh);
   result.mesh = std::move(mesh);
   execution.report(1.0, stage);

@@ -41,10 +41,10 @@ struct SeamWeld {
   double distance = 0.0;  ///< largest of a merged vertex from its replacement, length
 };
 
-/// Merges vertices of open edges that differ by at most 1e-6 of `size` in each coordinate, and at
-/// most a tenth of the mean open edge, if that closes at least half of the open edges: programs
-/// that round coordinates, or compute a corner once for each face, leave such seams. `rings` as
-/// edge_rings returns them.
+/// Merges vertices of open edges that differ by at most 1e-6 of `size` (the box's diagonal; more
+/// for wider seams) in each coordinate, and at most a tenth of the mean open edge, if that closes
+/// at least half of the open edges: programs that round coordinates, or compute a corner once for
+/// each face, leave such seams. `rings` as edge_rings returns them.
 SeamWeld find_seams(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings, double size,
                     const Execution& execution);
 
