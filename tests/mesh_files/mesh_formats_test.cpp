@@ -409,6 +409,53 @@ TEST_F(MeshFormats, ReadsAllPiecesOfVtp) {
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {3, 4, 5}}));
 }
 
+// Behind a vertex, a square and six triangles: two bodies, with labels of each cell. Neither
+// fractions nor vectors nor data of points are labels.
+TEST_F(MeshFormats, ReadLabelsOfFaces) {
+  const std::string points = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 5 0 0 6 0 0 5 1 0 5 0 1\n";
+  const std::string corners =
+      "3 2 1 0 0 1 4 1 2 4 2 3 4 3 0 4 5 7 6 5 6 8 6 7 8 7 5 8\n";  // a square, eight triangles
+  const std::string ends = "4 7 10 13 16 19 22 25 28\n";
+  const std::string labels = "0 7 7 7 7 7 -3 -3 -3 -3\n";
+  const std::string others = ".5 1 2 3 4 5 6 7 8 9\n";
+  const auto array = [](const std::string& tag, const std::string& numbers) {
+    return "<DataArray type=\"Float32\" format=\"ascii\" " + tag + ">" + numbers + "</DataArray>\n";
+  };
+  std::string piece =
+      "<Piece NumberOfPoints=\"9\" NumberOfVerts=\"1\" NumberOfPolys=\"9\"><CellData>" +
+      array("Name=\"a\"", others) + array("Name=\"b\"", labels) +
+      array("Name=\"c\" NumberOfComponents=\"3\"", labels + labels + labels) +
+      "<DataArray type=\"String\" Name=\"d\" format=\"ascii\">x</DataArray></CellData><Points>" +
+      array("NumberOfComponents=\"3\"", points) + "</Points><Polys>" +
+      array("Name=\"connectivity\"", corners) + array("Name=\"offsets\"", ends) +
+      "</Polys></Piece>";
+  const std::string vtp = "<VTKFile type=\"PolyData\"><PolyData>";
+  const std::string legacy =
+      vtk_head + "ASCII\nDATASET POLYDATA\nPOINTS 9 float\n" + points +
+      "VERTICES 1 2\n1 0\nPOLYGONS 9 37\n4 3 2 1 0\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
+      "3 5 7 6\n3 5 6 8\n3 6 7 8\n3 7 5 8\nPOINT_DATA 9\nSCALARS p int\nLOOKUP_TABLE default\n"
+      "1 1 1 1 1 2 2 2 2\nCELL_DATA 10\n";
+  const std::vector<std::int32_t> one = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1};
+  std::vector<std::int32_t> twice = one;
+  twice.insert(twice.end(), one.begin(), one.end());
+  for (const auto& [path, expected] :
+       {std::pair(file("a.vtp", vtp + piece + "</PolyData></VTKFile>"), one),
+        {file("b.vtp", vtp + piece + piece + "</PolyData></VTKFile>"), twice},
+        {file("a.vtk", legacy + "SCALARS s float 1\nLOOKUP_TABLE default\n" + labels), one},
+        {file("b.vtk",
+              legacy + "FIELD FieldData 2\na 1 10 float\n" + others + "b 1 10 int\n" + labels),
+         one}}) {
+    SCOPED_TRACE(path);
+    const MeshFile read = read_mesh_file(path);
+    ASSERT_EQ(read.mesh.triangles.size(), expected.size());
+    ASSERT_EQ(read.named_faces.size(), 1U);
+    EXPECT_EQ(read.named_faces[0].names, (std::vector<std::string>{"7", "-3"}));
+    EXPECT_EQ(read.named_faces[0].of_face, expected);
+  }
+  // A file whose data are cut off still has its mesh.
+  EXPECT_TRUE(read_mesh_file(file("c.vtk", legacy + "SCALARS s float 1\n")).named_faces.empty());
+}
+
 TEST_F(MeshFormats, ReadPointsOfTexts) {
   const std::vector<Vector3> points = {{1.5, -2, 3}, {4, 5e-1, -6}};
   EXPECT_EQ(read_mesh(file("a.xyz", "# a cloud\n1.5 -2\t3 255 0 0\n\n  4 5e-1 -6 1 1 1\n")).points,

@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "grains/marching_cubes.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -265,6 +267,110 @@ TEST(Bodies, AreToldThoughTheirSquaresAreCutAlongDifferentDiagonals) {
   ASSERT_EQ(bodies.size(), 2U);
   EXPECT_NEAR(bodies[0].volume, 8.0, 1e-12);
   EXPECT_NEAR(bodies[1].volume, 8.0, 1e-12);
+}
+
+// The contour of each label, as VTK's discrete marching cubes makes them: where three labels meet,
+// their faces lie on each other.
+TEST(Bodies, AreTheContoursOfLabelsWithTheirNamesOrAreRefused) {
+  std::mt19937_64 engine(test::announced(2));
+  std::uniform_real_distribution<double> place(0.0, 16.0);
+  constexpr int cells = 5;
+  std::vector<Vector3> centres;
+  for (int k = 0; k < cells; ++k) centres.emplace_back(place(engine), place(engine), place(engine));
+  std::array<test::VoxelGrid, cells> grids;
+  for (test::VoxelGrid& grid : grids) grid.size = {17, 17, 17};
+  for (int i = 0; i < 17 * 17 * 17; ++i) {
+    const Vector3 voxel(i % 17, i / 17 % 17, i / (17 * 17));
+    const auto nearest =
+        std::min_element(centres.begin(), centres.end(), [&](const Vector3& a, const Vector3& b) {
+          return (a - voxel).norm() < (b - voxel).norm();
+        });
+    const auto label = static_cast<std::size_t>(nearest - centres.begin());
+    const bool is_inside = (voxel - Vector3::Constant(8)).norm() < 7.0;
+    for (std::size_t k = 0; k < cells; ++k) {
+      grids[k].values.push_back(is_inside && k == label ? 1.0 : 0.0);
+    }
+  }
+  Exported file;
+  NamedFaces names;
+  std::map<std::string, double> expected;
+  double all = 0.0;
+  for (std::size_t k = 0; k < cells; ++k) {
+    const IndexedMesh contour = test::marching_cubes(grids[k], 0.5);
+    if (contour.triangles.empty()) continue;
+    names.names.push_back(std::to_string(k + 1));
+    expected[names.names.back()] = signed_volume(contour);
+    all += signed_volume(contour);
+    file.mesh = test::joined(file.mesh, contour);
+    names.of_face.resize(file.mesh.triangles.size(),
+                         static_cast<std::int32_t>(names.names.size()) - 1);
+  }
+  file.mesh = test::unwelded(file.mesh);
+  ASSERT_GE(expected.size(), 4U);
+  for (const MeshBody& body : split_bodies(file.mesh, {names}, Execution(1)).list) {
+    expected[body.name] -= body.volume;
+  }
+  for (const auto& [name, rest] : expected) EXPECT_NEAR(rest, 0.0, 1e-9 * all) << name;
+  // Without names no grain is lost silently.
+  try {
+    double found = 0.0;
+    for (const MeshBody& body : split_bodies(file.mesh, {}, Execution(1)).list) {
+      found += body.volume;
+    }
+    EXPECT_NEAR(found / all, 1.0, 0.002);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
+  }
+}
+
+// A wall that is there once has the name of one side only; the other side is not torn open.
+TEST(Bodies, KeepWallsThatHaveTheNameOfOneSide) {
+  const Exported once = exported(touching_labels()["wall"], Walls::Once, test::announced(4));
+  NamedFaces names{{"a", "b"}, {}};
+  const Exported apart = exported(filled({0, 0, 0}, {3, 4, 5}, 1), Walls::Once, 1);
+  // The faces of label 1 come first.
+  names.of_face.assign(once.mesh.triangles.size(), 1);
+  std::fill_n(names.of_face.begin(), apart.mesh.triangles.size(), 0);
+  const std::vector<MeshBody> bodies = split_bodies(once.mesh, {names}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_TRUE(bodies[0].is_closed() && bodies[1].is_closed());
+}
+
+// Each label's surface was made by itself: the wall of the pore and the grain in it are not alike.
+TEST(Bodies, FillPoresWithTrianglesOfTheirOwn) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.2, Vector3::UnitZ()).toRotationMatrix();
+  for (const double size : {0.97, 1.0, 1.03}) {
+    const IndexedMesh grain = test::moved(test::transformed(test::sphere(3), turn, Vector3::Zero()),
+                                          size, Vector3::Zero());
+    for (const bool with_two : {false, true}) {
+      IndexedMesh mesh = test::joined(ball(3.0, {0, 0, 0}), inside_out(test::sphere(3)));
+      mesh = test::joined(mesh, grain);
+      // A pore stays one, whichever way its faces look.
+      if (with_two) mesh = test::joined(mesh, ball(0.5, {2, 0, 0}));
+      const std::vector<MeshBody> bodies = split_bodies(mesh, {}, Execution(1)).list;
+      ASSERT_EQ(bodies.size(), 2U) << size;
+      EXPECT_EQ(bodies[0].pores, with_two ? 2U : 1U);
+      EXPECT_EQ(bodies[1].pores, 0U);
+      EXPECT_NEAR(bodies[1].volume, signed_volume(grain), 1e-9);
+    }
+  }
+}
+
+// At an end of the common edge, three faces at a corner make two squares of the same vertices.
+TEST(Bodies, KeepTheirCornersWhereTheyTouchInAnEdge) {
+  // However their squares are cut.
+  for (int way = 0; way < 64; ++way) {
+    const auto turned = [](int signs) {
+      const auto sign = [&](int k) { return (signs >> k) % 2 == 0 ? 1.0 : -1.0; };
+      return test::scaled(test::box(1, 1, 1), Vector3(sign(0), sign(1), sign(2)));
+    };
+    const IndexedMesh both =
+        test::joined(turned(way % 8), test::moved(turned(way / 8), 1.0, {1, 1, 0}));
+    const MeshBodies bodies = split_bodies(test::unwelded(both), {}, Execution(1));
+    ASSERT_EQ(bodies.list.size(), 2U) << way;
+    EXPECT_TRUE(bodies.warnings.empty()) << way;
+    for (const MeshBody& body : bodies.list) EXPECT_NEAR(body.volume, 1.0, 1e-12) << way;
+  }
 }
 
 TEST(Bodies, AreRefusedWhereTheirFacesLieOnEachOther) {

@@ -105,11 +105,21 @@ BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execu
   warnings_ = std::move(file.warnings);
   warnings_.insert(warnings_.end(), split.warnings.begin(), split.warnings.end());
   double largest = 0.0;
+  double open = 0.0;
+  double closed = 0.0;
   for (const MeshBody& body : bodies_) largest = std::max(largest, body.volume);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const MeshBody& body = bodies_[k];
     if (body.is_closed() && body.volume >= 0.01 * smallest * largest) taken_.push_back(k);
+    (body.is_closed() ? closed : open) += static_cast<double>(body.mesh.triangles.size());
   }
+  if (open == 0.0) return;
+  left_out_ = open / (open + closed);
+  warnings_.push_back(
+      "Open surfaces have " + format_percent(left_out_) +
+      " of the faces. They are only listed, not written. If their open edges lie on each other, "
+      "merge the corners, in MeshLab by Filters > Cleaning and Repairing > Merge Close Vertices. "
+      "wscvt batch --parts fills small holes.");
 }
 
 std::string BodyGrains::name(std::size_t grain) const { return name_of(taken_[grain]); }

@@ -31,6 +31,7 @@ class BodyGrains : public GrainSource {
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::string census(const MadeOf& made_of) const override;
   std::size_t volumes() const override { return 1; }
+  double left_out() const override { return left_out_; }  ///< share of faces in open bodies
 
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -42,6 +43,7 @@ class BodyGrains : public GrainSource {
   std::vector<MeshBody> bodies_;
   std::vector<std::size_t> taken_;
   std::vector<std::string> warnings_;
+  double left_out_ = 0.0;
 };
 
 /// The mesh of each label of a volume, or each body of a mesh, as it is.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -51,5 +52,26 @@ class FaceNames {
   std::int32_t current_ = -1;
   std::size_t unnamed_ = 0;  ///< faces before the first name
 };
+
+/// Appends the labels of a file's triangles as names, if all are whole numbers, at least two are
+/// different, and each has the faces of a closed surface on the mean.
+inline void append_labels(const std::vector<double>& labels, std::size_t faces,
+                          std::vector<NamedFaces>& lists) {
+  constexpr double most = 9007199254740992.0;  // whole in a double
+  constexpr std::size_t fewest_faces = 4;
+  if (labels.size() != faces) return;
+  std::map<std::int64_t, std::int32_t> numbers;
+  NamedFaces names;
+  for (const double label : labels) {
+    if (!(std::abs(label) <= most) || std::floor(label) != label) return;
+    const auto value = static_cast<std::int64_t>(label);
+    const auto [known, is_new] =
+        numbers.emplace(value, static_cast<std::int32_t>(names.names.size()));
+    if (is_new) names.names.push_back(std::to_string(value));
+    if (names.names.size() * fewest_faces > faces) return;
+    names.of_face.push_back(known->second);
+  }
+  if (names.names.size() > 1) lists.push_back(std::move(names));
+}
 
 }  // namespace wscvt

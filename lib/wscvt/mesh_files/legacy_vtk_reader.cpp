@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/base/error.h"
+#include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 #include "wscvt/mesh_files/vtk_polygons.h"
@@ -73,7 +75,8 @@ class LegacyVtkReader {
  public:
   explicit LegacyVtkReader(ByteReader& reader) : reader_(reader) {}
 
-  IndexedMesh read() {
+  /// Appends the labels of the faces: arrays of one whole number for each.
+  IndexedMesh read(std::vector<NamedFaces>& names) {
     if (lower_case(reader_.line().value_or("")).rfind("# vtk datafile version", 0) != 0) {
       reader_.fail("does not begin with \"# vtk DataFile Version\" and is not a VTK file" +
                    std::string(export_again));
@@ -90,11 +93,15 @@ class LegacyVtkReader {
       goes_on = line && read_section(std::string(*line));
     }
     keep_surface_cells();
+    std::vector<std::size_t> cells;
+    std::size_t cell = other_cells_;  // VTK numbers vertices and lines first, strips last
     for (const bool strips : {false, true}) {
-      add_polygons(strips ? strips_ : polygons_, strips, 0, mesh_.points.size(), reader_,
-                   mesh_.triangles);
+      const VtkPolygons& list = strips ? strips_ : polygons_;
+      add_polygons(list, strips, 0, mesh_.points.size(), reader_, mesh_.triangles, cell, cells);
+      cell += list.ends.size();
     }
     if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    if (cell_types_.empty()) read_labels(cells, names);
     return std::move(mesh_);
   }
 
@@ -103,7 +110,11 @@ class LegacyVtkReader {
   bool read_section(const std::string& line) {
     TextFields fields(line);
     const std::string key = lower_case(fields.next());
-    if (key == "point_data" || key == "cell_data") return false;
+    if (key == "point_data" || key == "cell_data") {
+      is_of_cells_ = key == "cell_data";
+      data_count_ = count_in(fields);
+      return false;
+    }
     if (key == "metadata") {
       while (!TextFields(reader_.line().value_or("")).next().empty()) {
       }
@@ -116,7 +127,7 @@ class LegacyVtkReader {
     } else if (key == "field") {
       fields.next();
       const std::size_t arrays = count_in(fields);
-      for (std::size_t k = 0; k < arrays; ++k) skip_array();
+      for (std::size_t k = 0; k < arrays; ++k) next_array();
     } else if (key == "points") {
       read_points(fields);
     } else if (key == "polygons" || key == "cells") {
@@ -124,13 +135,55 @@ class LegacyVtkReader {
     } else if (key == "triangle_strips") {
       strips_ = polygons_of(fields);
     } else if (key == "vertices" || key == "lines") {
-      polygons_of(fields);
+      other_cells_ += polygons_of(fields).ends.size();
     } else if (key == "cell_types") {
       cell_types_ = numbers<std::int64_t>(VtkType::Int32, 4, count_in(fields));
     } else {
       reader_.fail_line("has " + in_quotes(key) + " instead of a part of a mesh" + export_again);
     }
     return true;
+  }
+
+  /// Reads the data of points and faces up to what is neither SCALARS nor FIELD. The mesh does not
+  /// need them, so a fault ends the reading.
+  void read_labels(const std::vector<std::size_t>& cells, std::vector<NamedFaces>& names) {
+    const auto take = [&](const std::vector<double>& values) {
+      if (!is_of_cells_ || values.size() != data_count_) return;
+      std::vector<double> labels;
+      for (const std::size_t cell : cells) {
+        if (cell < values.size()) labels.push_back(values[cell]);
+      }
+      append_labels(labels, mesh_.triangles.size(), names);
+    };
+    try {
+      while (const std::optional<std::string_view> line = reader_.filled_line()) {
+        const std::string text(*line);
+        TextFields fields(text);
+        const std::string key = lower_case(fields.next());
+        if (key == "point_data" || key == "cell_data") {
+          is_of_cells_ = key == "cell_data";
+          data_count_ = count_in(fields);
+        } else if (key == "metadata") {
+          while (!TextFields(reader_.line().value_or("")).next().empty()) {
+          }
+        } else if (key == "scalars") {
+          fields.next();
+          const NamedType& type = type_in(fields);
+          const std::string_view components = fields.next();
+          if (!components.empty() && components != "1") return;
+          reader_.filled_line();  // its table of colours
+          take(numbers<double>(type.type, type.size, data_count_));
+        } else if (key == "field") {
+          fields.next();
+          const std::size_t arrays = count_in(fields);
+          for (std::size_t k = 0; k < arrays; ++k) take(next_array());
+        } else {
+          return;
+        }
+      }
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::InputOutput) throw;
+    }
   }
 
   void read_points(TextFields& fields) {
@@ -188,7 +241,7 @@ class LegacyVtkReader {
     return numbers<std::int64_t>(type.type, type.size, count);
   }
 
-  void skip_array() {
+  std::vector<double> next_array() {
     const std::string line(reader_.filled_line().value_or(""));
     TextFields fields(line);
     fields.next();
@@ -199,7 +252,7 @@ class LegacyVtkReader {
     }
     const NamedType& type = type_in(fields);
     if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples) fail_cut();
-    numbers<double>(type.type, type.size, components * tuples);
+    return numbers<double>(type.type, type.size, components * tuples);
   }
 
   std::size_t count_in(TextFields& fields) {
@@ -304,10 +357,20 @@ class LegacyVtkReader {
   VtkPolygons polygons_;
   VtkPolygons strips_;
   std::vector<std::int64_t> cell_types_;
+  std::size_t other_cells_ = 0;  ///< vertices and lines
+  bool is_of_cells_ = false;     ///< the data that are read, else of points
+  std::size_t data_count_ = 0;
 };
 
 }  // namespace
 
-IndexedMesh read_legacy_vtk(ByteReader& reader) { return LegacyVtkReader(reader).read(); }
+IndexedMesh read_legacy_vtk(ByteReader& reader) {
+  std::vector<NamedFaces> names;
+  return read_legacy_vtk_labels(reader, names);
+}
+
+IndexedMesh read_legacy_vtk_labels(ByteReader& reader, std::vector<NamedFaces>& names) {
+  return LegacyVtkReader(reader).read(names);
+}
 
 }  // namespace wscvt

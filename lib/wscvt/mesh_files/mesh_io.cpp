@@ -29,6 +29,7 @@
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_writers.h"
@@ -275,11 +276,21 @@ MeshFile read_as(ByteReader& reader, const Format& format) {
   MeshFile file;
   if (format.read == read_ply) {
     file.mesh = read_ply_attributes(reader, file.attributes);
+    for (const MeshAttribute& labels : file.attributes.of_faces) {
+      constexpr std::string_view colours[] = {"red", "green", "blue", "alpha"};
+      if (std::find(std::begin(colours), std::end(colours), labels.name) == std::end(colours)) {
+        append_labels(labels.values, file.mesh.triangles.size(), file.named_faces);
+      }
+    }
   } else if (format.read == read_obj) {
     file.mesh =
         read_obj_attributes(reader, file.attributes, file.material_libraries, file.named_faces);
   } else if (format.read == read_stl) {
     file.mesh = read_stl_solids(reader, file.named_faces);
+  } else if (format.read == read_vtp) {
+    file.mesh = read_vtp_labels(reader, file.named_faces);
+  } else if (format.read == read_legacy_vtk) {
+    file.mesh = read_legacy_vtk_labels(reader, file.named_faces);
   } else {
     file.mesh = format.read(reader);
   }

@@ -30,8 +30,9 @@ struct MeshFile {
   /// read_pictures.
   MeshAttributes attributes;
   std::vector<std::string> material_libraries;  ///< .mtl files that an OBJ names
-  /// OBJ: its objects, and its groups. STL as text: its solids. A list is there only if it has at
-  /// least two names, the coarser list first.
+  /// OBJ: its objects, and its groups. STL as text: its solids. PLY, VTK and VTP: the labels of
+  /// faces, by their numbers. A list is there only if it has at least two names, the coarser list
+  /// first.
   std::vector<NamedFaces> named_faces;
   std::vector<std::string> warnings;  ///< oddities of the file, one sentence each
 };

@@ -70,11 +70,19 @@ IndexedMesh read_off(ByteReader& reader);
 /// gives only points. Throws as read_mesh.
 IndexedMesh read_vtp(ByteReader& reader);
 
+/// Reads a file as read_vtp, and appends the labels of its faces: data of one whole number for
+/// each.
+IndexedMesh read_vtp_labels(ByteReader& reader, std::vector<NamedFaces>& names);
+
 /// Reads a mesh from a legacy VTK file (not XML), text or binary, of any version: polygonal data,
 /// or an unstructured grid of triangles, quads, polygons and strips. Skips vertices, lines and the
 /// data of points and faces. A file without faces gives only points. Throws as read_mesh, also for
 /// grids of volumes.
 IndexedMesh read_legacy_vtk(ByteReader& reader);
+
+/// Reads a file as read_legacy_vtk, and appends the labels of its faces, if it holds polygons: data
+/// of one whole number for each.
+IndexedMesh read_legacy_vtk_labels(ByteReader& reader, std::vector<NamedFaces>& names);
 
 // Readers of finite-element meshes, as write_mesh writes them and as others do. They take triangles
 // and quadrilaterals, also of second order, by their corners. Other elements are left out, so the

@@ -9,7 +9,8 @@
 namespace wscvt {
 
 void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, std::size_t points,
-                  const ByteReader& reader, std::vector<Triangle>& triangles) {
+                  const ByteReader& reader, std::vector<Triangle>& triangles, std::size_t cell,
+                  std::vector<std::size_t>& cells) {
   if (first + points > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     reader.fail("has more points than can be numbered. Reduce the scan first.");
   }
@@ -33,6 +34,7 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, s
     } else {
       add_fan(corners.data() + begin, count, triangles);
     }
+    cells.resize(triangles.size(), cell++);
     begin = end;
   }
 }

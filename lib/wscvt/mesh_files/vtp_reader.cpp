@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/base/error.h"
+#include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 #include "wscvt/mesh_files/vtk_polygons.h"
@@ -115,12 +117,16 @@ class VtpReader {
   explicit VtpReader(ByteReader& reader)
       : reader_(reader), text_(reader.peek(static_cast<std::size_t>(reader.remaining()))) {}
 
-  IndexedMesh read() {
+  /// Appends the labels of the faces: arrays of one whole number for each.
+  IndexedMesh read(std::vector<NamedFaces>& names) {
     read_tags();
     if (pieces_.empty()) reader_.fail("holds no piece of a mesh" + std::string(export_again));
     IndexedMesh mesh;
     for (const Piece& piece : pieces_) add(piece, mesh);
     if (mesh.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    for (const auto& [name, labels] : labels_) {
+      append_labels(labels, mesh.triangles.size(), names);
+    }
     return mesh;
   }
 
@@ -211,7 +217,29 @@ class VtpReader {
     return static_cast<std::size_t>(*count);
   }
 
-  void add(const Piece& piece, IndexedMesh& mesh) const {
+  void add(const Piece& piece, IndexedMesh& mesh) {
+    const std::size_t before = mesh.triangles.size();
+    std::vector<std::size_t> cells(before, 0);
+    add_faces(piece, mesh, cells);
+    cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before));
+    constexpr std::string_view section = "CellData/";
+    for (const auto& [name, array] : piece.arrays) {
+      const bool is_number = value_of(array.attributes, "NumberOfComponents", "1") == "1";
+      if (name.rfind(section, 0) != 0 || !is_number) continue;
+      std::vector<double>& labels = labels_[name];
+      if (labels.size() != before) continue;
+      try {
+        const std::vector<double> values = numbers<double>(piece, name);
+        for (const std::size_t cell : cells) {
+          if (cell < values.size()) labels.push_back(values[cell]);
+        }
+      } catch (const Error& error) {
+        if (error.code() != ErrorCode::InputOutput) throw;  // else not an array of numbers
+      }
+    }
+  }
+
+  void add_faces(const Piece& piece, IndexedMesh& mesh, std::vector<std::size_t>& cells) const {
     const std::size_t count = count_in(piece, "NumberOfPoints");
     const std::size_t first = mesh.points.size();
     if (count > 0) {
@@ -225,7 +253,9 @@ class VtpReader {
                                  coordinates[3 * i + 2]);
       }
     }
-    if (is_grid_) return add_cells(piece, first, count, mesh);
+    if (is_grid_) return add_cells(piece, first, count, mesh, cells);
+    std::size_t cell = count_in(piece, "NumberOfVerts") + count_in(piece, "NumberOfLines");
+    // VTK numbers the polygons before the strips.
     for (const bool strips : {false, true}) {
       const std::string section = strips ? "Strips" : "Polys";
       const std::size_t faces = count_in(piece, "NumberOf" + section);
@@ -236,13 +266,14 @@ class VtpReader {
         reader_.fail("has ends of " + std::to_string(polygons.ends.size()) + " faces and " +
                      std::to_string(faces) + " faces" + export_again);
       }
-      add_polygons(polygons, strips, first, count, reader_, mesh.triangles);
+      add_polygons(polygons, strips, first, count, reader_, mesh.triangles, cell, cells);
+      cell += faces;
     }
   }
 
   /// Adds the triangles, quadrilaterals and polygons of an unstructured grid.
-  void add_cells(const Piece& piece, std::size_t first, std::size_t count,
-                 IndexedMesh& mesh) const {
+  void add_cells(const Piece& piece, std::size_t first, std::size_t count, IndexedMesh& mesh,
+                 std::vector<std::size_t>& cells) const {
     if (count_in(piece, "NumberOfCells") == 0) return;
     const std::vector<std::int64_t> corners = numbers<std::int64_t>(piece, "Cells/connectivity");
     const std::vector<std::int64_t> ends = numbers<std::int64_t>(piece, "Cells/offsets");
@@ -252,6 +283,7 @@ class VtpReader {
                    std::to_string(ends.size()) + " cells" + export_again);
     }
     VtkPolygons faces;
+    std::vector<std::size_t> of_face;
     std::int64_t begin = 0;
     for (std::size_t k = 0; k < ends.size(); ++k) {
       if (ends[k] < begin || static_cast<std::uint64_t>(ends[k]) > corners.size()) fail_cut();
@@ -262,13 +294,16 @@ class VtpReader {
         faces.corners.insert(faces.corners.end(), corners.begin() + begin,
                              corners.begin() + ends[k]);
         faces.ends.push_back(static_cast<std::int64_t>(faces.corners.size()));
+        of_face.push_back(k);
       }
       begin = ends[k];
     }
     if (faces.ends.empty()) {
       reader_.fail("holds no triangles or polygons. Save the surface of the grain too.");
     }
-    add_polygons(faces, false, first, count, reader_, mesh.triangles);
+    const std::size_t before = cells.size();
+    add_polygons(faces, false, first, count, reader_, mesh.triangles, 0, cells);
+    for (std::size_t t = before; t < cells.size(); ++t) cells[t] = of_face[cells[t]];
   }
 
   template <class Number>
@@ -404,12 +439,20 @@ class VtpReader {
   bool is_grid_ = false;   ///< unstructured
   Attributes file_;        ///< of VTKFile
   std::vector<Piece> pieces_;
+  std::map<std::string, std::vector<double>> labels_;  ///< of the triangles so far, by array
   std::size_t appendix_ = 0;  ///< the first byte of the appended data; 0: no data
   bool is_base64_ = true;     ///< of the appended data
 };
 
 }  // namespace
 
-IndexedMesh read_vtp(ByteReader& reader) { return VtpReader(reader).read(); }
+IndexedMesh read_vtp(ByteReader& reader) {
+  std::vector<NamedFaces> names;
+  return read_vtp_labels(reader, names);
+}
+
+IndexedMesh read_vtp_labels(ByteReader& reader, std::vector<NamedFaces>& names) {
+  return VtpReader(reader).read(names);
+}
 
 }  // namespace wscvt

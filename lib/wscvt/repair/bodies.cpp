@@ -136,19 +136,55 @@ class IslandFinder {
         level < names_.size() ? by_name(faces, names_[level]) : by_vertices(faces);
     if (parts.size() < 2) return descend(faces, level + 1);
     FaceList rest;
+    std::vector<const FaceList*> closed;
+    std::vector<Island> islands;
     for (const FaceList& part : parts) {
       Island island = island_of(part);
       if (!is_closed(island, execution_)) {
         rest.insert(rest.end(), part.begin(), part.end());
-      } else if (level < names_.size()) {
-        descend(part, level + 1);
+        continue;
+      }
+      closed.push_back(&part);
+      if (level == names_.size()) islands.push_back(std::move(island));
+    }
+    std::sort(rest.begin(), rest.end());
+    if (!rest.empty() && !closed.empty() && is_torn(faces, rest)) {
+      return descend(faces, level + 1);
+    }
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      if (level < names_.size()) {
+        descend(*closed[k], level + 1);
       } else {
-        islands_.push_back(std::move(island));
+        islands_.push_back(std::move(islands[k]));
       }
     }
-    if (rest.empty()) return;
-    std::sort(rest.begin(), rest.end());
-    descend(rest, level + 1);
+    if (!rest.empty()) descend(rest, level + 1);
+  }
+
+  /// Whether the rest is open along the closed parts, because walls are there once, with the name
+  /// of one side.
+  bool is_torn(const FaceList& faces, const FaceList& rest) {
+    const Island whole = island_of(faces);
+    const std::vector<std::int32_t> rings = edge_rings(whole.mesh, execution_);
+    std::size_t open = 0;
+    std::size_t torn = 0;
+    for (std::size_t h = 0; h < rings.size(); ++h) {
+      std::size_t of_rest = 0;
+      std::size_t all = 0;
+      bool is_first = true;
+      std::size_t g = h;
+      do {
+        is_first = is_first && g >= h;
+        const std::int32_t source = whole.source[g / 3];
+        of_rest += std::binary_search(rest.begin(), rest.end(), source) ? 1U : 0U;
+        ++all;
+        g = index(rings[g]);
+      } while (is_first && g != h);
+      if (!is_first || of_rest % 2 == 0) continue;
+      ++open;
+      if (all > of_rest) ++torn;
+    }
+    return 2 * torn > open;
   }
 
   static std::vector<FaceList> by_name(const FaceList& faces, const NamedFaces& names) {
@@ -298,20 +334,20 @@ class PartFinder {
     parts.push_back(std::move(part));
   }
 
-  [[noreturn]] static void refuse_unclear(const IndexedMesh& mesh, const MeshCells& cells) {
-    const std::int32_t h = cells.unclear.front();
+  [[noreturn]] static void refuse_unclear(const IndexedMesh& mesh, const MeshCells& cells,
+                                          std::int32_t h) {
     const Vector3& p = mesh.points[index(origin_of(cells.faces, h))];
     refuse(
         "At (" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) +
         ") more than two faces meet in an edge, and some of them lie on each other. So the bodies "
         "that touch there cannot be told apart. Export each body as an object or a file of its "
-        "own.");
+        "own, or the surfaces as .vtp with their labels.");
   }
 
   /// Adds the regions of a piece. Returns false if it encloses nothing.
   bool add_cells(const Island& piece) {
     const MeshCells cells = find_mesh_cells(piece.mesh, execution_);
-    if (cells.unclear.front() >= 0) refuse_unclear(piece.mesh, cells);
+    if (cells.unclear.front() >= 0) refuse_unclear(piece.mesh, cells, cells.unclear.front());
     IndexedMesh once;
     once.points = piece.mesh.points;
     once.triangles = cells.faces;
@@ -367,7 +403,9 @@ class PartFinder {
 
   /// Adds the faces with the outside on both sides, or counts them if they are few.
   void add_rest(const MeshCells& cells, const Island& piece, Extractor& extractor) {
-    constexpr double largest_share = 0.05;  // as the limit of the repaired area
+    // As the limit of the repaired area. Where faces lie on each other they may be a body's.
+    const std::int32_t lying = cells.lying.front();
+    const double largest_share = lying < 0 ? 0.05 : 0.001;
     FaceList faces;
     double area = 0.0;
     double rest = 0.0;
@@ -386,6 +424,7 @@ class PartFinder {
       left_out += faces.size();
       return;
     }
+    if (lying >= 0) refuse_unclear(piece.mesh, cells, lying);
     Part part;
     part.mesh = extractor.extract(faces);
     for (const std::int32_t f : faces) {
@@ -518,6 +557,61 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
                                          inside.begin() + static_cast<std::ptrdiff_t>(end),
                                          [](char one) { return one != 0; });
       if (is_inside) parts[inner].holders.push_back(outer);
+      begin = end;
+    }
+  }
+}
+
+/// Appends points a little below some faces spread over a part, about an edge deep.
+void append_depths(const Part& part, std::vector<Vector3>& points) {
+  constexpr std::size_t most_asked = 16;
+  const std::vector<Triangle>& triangles = part.mesh.triangles;
+  const std::size_t asked = std::min(triangles.size(), most_asked);
+  for (std::size_t k = 0; k < asked; ++k) {
+    const Triangle& t = triangles[k * triangles.size() / asked];
+    const Vector3& a = part.mesh.points[index(t[0])];
+    const Vector3& b = part.mesh.points[index(t[1])];
+    const Vector3& c = part.mesh.points[index(t[2])];
+    const Vector3 normal = doubled_area_normal(a, b, c);
+    const double doubled_area = normal.norm();
+    if (!(doubled_area > 0.0)) continue;
+    points.emplace_back((a + b + c) / 3.0 - normal / std::sqrt(2.0 * doubled_area));
+  }
+}
+
+/// Puts what fills a pore inside it, though both intersect: their surfaces were made one by one.
+void fill_pores(std::vector<Part>& parts, const Execution& execution) {
+  const auto contains = [](const std::vector<std::size_t>& list, std::size_t one) {
+    return std::find(list.begin(), list.end(), one) != list.end();
+  };
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Part& pore = parts[p];
+    if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
+    std::vector<std::pair<std::size_t, std::size_t>> asked;  // part, end of its points
+    std::vector<Vector3> points;
+    for (std::size_t q = 0; q < parts.size(); ++q) {
+      const Part& part = parts[q];
+      if (part.volume == 0.0 || part.was_inward || part.piece == pore.piece ||
+          (part.box.low.array() > pore.box.high.array()).any() ||
+          (part.box.high.array() < pore.box.low.array()).any() || contains(part.holders, p) ||
+          std::none_of(pore.holders.begin(), pore.holders.end(),
+                       [&](std::size_t h) { return h != q && contains(part.holders, h); })) {
+        continue;
+      }
+      append_depths(part, points);
+      asked.emplace_back(q, points.size());
+    }
+    if (asked.empty()) continue;
+    const std::vector<char> inside = are_inside(pore.mesh, points, execution);
+    std::size_t begin = 0;
+    for (const auto& [q, end] : asked) {
+      const auto count = std::count(inside.begin() + static_cast<std::ptrdiff_t>(begin),
+                                    inside.begin() + static_cast<std::ptrdiff_t>(end), 1);
+      if (2 * static_cast<std::size_t>(count) > end - begin) {
+        parts[q].holders.push_back(p);
+        pore.holders.erase(std::remove(pore.holders.begin(), pore.holders.end(), q),
+                           pore.holders.end());
+      }
       begin = end;
     }
   }
@@ -662,6 +756,7 @@ MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
     result.warnings.push_back(merged_warning(finder.merged(), finder.distance()));
   const std::size_t copies = drop_copies(found);
   find_holders(found.parts, execution);
+  fill_pores(found.parts, execution);
   result.list = assemble(found, names);
   if (copies > 0) {
     result.warnings.push_back(count_of(copies, "body is", "bodies are") +

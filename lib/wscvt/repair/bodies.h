@@ -31,18 +31,20 @@ struct MeshBodies {
 /// Splits a mesh into bodies. `names` as MeshFile has them, the coarsest first.
 ///
 /// 1. Faces of one name, and then faces connected through the mesh's own vertices, are a surface of
-///    their own if they are closed. All others are welded together (see weld.h).
+///    their own if they are closed, unless the others are open along them. All others are welded
+///    together (see weld.h).
 /// 2. Surfaces connected through edges bound regions (see mesh_cells.h). Each region that they
 /// enclose is
 ///    a body. A wall has two sides, whether it is there once or twice.
 /// 3. A closed surface directly inside a body is a pore of it. A surface inside a pore is a body
-///    again, also if it fills the pore; so are regions inside a body with a wall between them.
-///    Surfaces that intersect are bodies side by side.
+///    again, also if it fills the pore, with triangles of its own; so are regions inside a body
+///    with a wall between them. Surfaces that intersect are bodies side by side.
 ///
 /// An open surface is a body too, wherever it lies. Faces that hang on a body and enclose nothing
 /// are left out up to 5 % of its area. A second copy of a body is left out. Repairs nothing else.
 /// Throws Error(InvalidInput) if regions cannot be told apart, because faces lie on each other at
-/// an edge of more than two; as check_mesh for meshes without usable faces.
+/// an edge of more than two, and more than 0.1 % of the area encloses nothing; as check_mesh for
+/// meshes without usable faces.
 MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
                         const Execution& execution);
 

@@ -87,9 +87,14 @@ void align_diagonals(IndexedMesh& mesh, const Execution& execution) {
       const std::int32_t q = target_of(mesh.triangles, h);
       const std::int32_t r = origin_of(mesh.triangles, previous_half_edge(h));
       const std::int32_t s = origin_of(mesh.triangles, previous_half_edge(other));
-      const std::int32_t a = origin_of(mesh.triangles, squares[i].diagonal);
       const bool is_consistent = origin_of(mesh.triangles, other) == q;
-      if (is_consistent && a != p && a != q) {
+      // Two of the three squares at the corner of a box share a face.
+      const std::int32_t first = squares[i].diagonal;
+      const std::int32_t a = origin_of(mesh.triangles, first);
+      const auto is_of_first = [&](std::int32_t g) {
+        return face_of(g) == face_of(first) || face_of(g) == face_of(rings[index(first)]);
+      };
+      if (is_consistent && !is_of_first(h) && !is_of_first(other) && a != p && a != q) {
         mesh.triangles[face_of(h)] = {p, s, r};
         mesh.triangles[face_of(other)] = {s, q, r};
       }
@@ -172,9 +177,14 @@ class CellFinder {
     cells_.list.resize(count);
     std::tie(piece_of_, cells_.pieces) = pieces.numbers();
     cells_.unclear.assign(cells_.pieces, -1);
+    cells_.lying.assign(cells_.pieces, -1);
     cells_.has_single_walls.assign(cells_.pieces, 0);
     measure();
-    for (const std::int32_t h : left_out) check_closed(h);
+    for (const std::int32_t h : left_out) {
+      std::int32_t& lying = cells_.lying[index(piece_of_[face_of(h)])];
+      if (lying < 0) lying = h;
+      check_closed(h);
+    }
     find_solids();
     return std::move(cells_);
   }

@@ -39,6 +39,9 @@ struct MeshCells {
   /// For every piece a half-edge, 3 f + k, where faces lie on each other, so that its cells could
   /// not be told apart; -1 for the others.
   std::vector<std::int32_t> unclear;
+  /// For every piece the first half-edge where faces lie on each other, also if its cells are
+  /// closed without it; -1 for the others.
+  std::vector<std::int32_t> lying;
 
   std::int32_t before(std::size_t face) const { return of_side[2 * face]; }
   std::int32_t behind(std::size_t face) const { return of_side[2 * face + 1]; }
