@@ -115,6 +115,20 @@ TEST(SurfaceTexture, NamesNoiseAndHowMuchAreaItMakesAtLeast) {
   }
 }
 
+// Fewer faces have less area of the same noise, and much noise folds them.
+TEST(SurfaceTexture, NamesNoiseOfTheRadiusOnFewAndOnManyFaces) {
+  for (const int times : {4, 5}) {
+    for (const double deviation : {0.01, 0.015, 0.02}) {
+      IndexedMesh mesh = test::lumpy(times);
+      std::mt19937 random(7);
+      std::normal_distribution<double> move(0.0, deviation);
+      for (Vector3& point : mesh.points) point *= 1.0 + move(random);
+      EXPECT_EQ(kind_of(mesh), Texture::Noise) << times << ", " << deviation;
+    }
+    EXPECT_EQ(kind_of(test::lumpy(times)), Texture::None);
+  }
+}
+
 TEST(SurfaceTexture, IsNotNamedOfScansOfCoarseMeshesAndOfParts) {
   const auto expect_none = [](const IndexedMesh& mesh, const std::string& name) {
     EXPECT_EQ(kind_of(mesh), Texture::None) << name << ": " << surface_texture(mesh).excess;

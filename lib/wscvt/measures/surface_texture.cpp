@@ -20,6 +20,7 @@ namespace wscvt {
 namespace {
 
 constexpr double told_excess = 0.05;
+constexpr double told_noise = 0.03;       // of a surface that is bent both ways
 constexpr double cosine_of_near = 0.978;  // 12 degrees
 
 /// Faces of a mesh, their neighbours, and the means of their area vectors.
@@ -219,7 +220,7 @@ SurfaceTexture surface_texture(const IndexedMesh& mesh) {
   const double early = faces.excess();
   faces.average(4);
   texture.excess = faces.excess();
-  if (!(texture.excess > told_excess)) return texture;
+  if (!(texture.excess > told_noise)) return texture;
   const auto [concave, edge] = faces.concave_share_and_edge();
   if (!is_fine(mesh, edge)) return texture;
   // Bodies for these limits: tests/measures/surface_texture_test.cpp.
@@ -228,11 +229,13 @@ SurfaceTexture surface_texture(const IndexedMesh& mesh) {
   const double gathered = share_along(axes, faces.normals(), faces.normals());
   const double without = share_along(axes, faces.means(), faces.normals());
   const bool is_along_axes = gathered > 0.22 && gathered > 1.5 * without;
-  if (is_along_axes &&
+  const bool is_much = texture.excess > told_excess;
+  const bool is_of_faces = concave > rough && early > 0.78 * texture.excess;
+  if (is_much && is_along_axes &&
       (concave > rough || (concave > 0.15 && share_of_few_directions(faces.normals()) > 0.8))) {
     texture.kind = Texture::Steps;
-  } else if ((concave > rough && early > 0.78 * texture.excess) ||
-             (concave > 0.46 && early > 0.7 * texture.excess)) {
+  } else if (is_much ? is_of_faces || (concave > 0.46 && early > 0.6 * texture.excess)
+                     : is_of_faces && concave > 0.4 && !is_along_axes) {
     texture.kind = Texture::Noise;
   }
   return texture;
