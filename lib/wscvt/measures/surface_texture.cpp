@@ -20,7 +20,7 @@ namespace wscvt {
 namespace {
 
 constexpr double told_excess = 0.05;
-constexpr double told_noise = 0.03;       // of a surface that is bent both ways
+constexpr double told_noise = 0.025;       // of a surface that is bent both ways
 constexpr double cosine_of_near = 0.978;  // 12 degrees
 
 /// Faces of a mesh, their neighbours, and the means of their area vectors.
@@ -235,7 +235,7 @@ SurfaceTexture surface_texture(const IndexedMesh& mesh) {
       (concave > rough || (concave > 0.15 && share_of_few_directions(faces.normals()) > 0.8))) {
     texture.kind = Texture::Steps;
   } else if (is_much ? is_of_faces || (concave > 0.46 && early > 0.6 * texture.excess)
-                     : is_of_faces && concave > 0.4 && !is_along_axes) {
+                     : is_of_faces && concave > 0.39 && !is_along_axes) {
     texture.kind = Texture::Noise;
   }
   return texture;

@@ -26,7 +26,8 @@ struct SurfaceTexture {
 /// mask from 6 % on at any resolution, noise of .5 % of the radius 5 to 33 % if the mesh is fine.
 /// Above 5 % steps gather the normals along three orthogonal directions, and noise spreads them. A
 /// coarse mesh of a convex or smooth body has few concave edges; one of a rough body loses more of
-/// its area in the later averages. From 3 % on, a surface with 40 % of its angles concave is noisy.
+/// its area in the later averages. From 2.5 % on, a surface with 39 % of its angles concave is
+/// noisy.
 SurfaceTexture surface_texture(const IndexedMesh& mesh);
 
 /// Returns which values of the grain `name` are false; empty without steps or noise.
