@@ -14,6 +14,7 @@
 #include "toolbox/exchange/clump_files.h"
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/fabric/fabric_page.h"
+#include "toolbox/job/grain_job.h"
 #include "toolbox/report/parts_report.h"
 #include "toolbox/resolution/resolution.h"
 #include "toolbox/volume/open_volume.h"
@@ -148,6 +149,7 @@ void describe_labels(const DescribeArguments& arguments) {
   common.threads = 1;  // the reading takes the time
   Work work(common);
   const MadeFolder folder(arguments.folder);
+  require_no_job(arguments.folder);
   check_writable(in_folder("contacts.csv"));
   FabricOptions options = arguments.fabric;
   options.scan = scan.get();

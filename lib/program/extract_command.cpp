@@ -46,6 +46,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const auto in_folder = [&](const std::string& name) {
     return (fs::path(arguments.folder) / name).string();
   };
+  require_no_job(arguments.folder);
   check_writable(in_folder("grains.csv"));
   ConformingOptions options = arguments.walls;
   options.smoothing = arguments.job.volume.smoothing;

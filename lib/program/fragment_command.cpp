@@ -12,6 +12,7 @@
 #include "output_paths.h"
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
+#include "toolbox/job/grain_job.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"
 #include "work.h"
@@ -141,6 +142,7 @@ int run(const FragmentArguments& arguments) {
   if (arguments.nodes > 0) {
     remesh_each(fragments, arguments.nodes, work.execution().part(cut_share, 1.0));
   }
+  require_no_job(arguments.folder);
   const MadeFolder made(arguments.folder);
   for (std::size_t k = 0; k < files.size(); ++k) {
     work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {

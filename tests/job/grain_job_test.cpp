@@ -137,6 +137,52 @@ TEST_F(Job, GoesOnWhereItWasCut) {
   EXPECT_FALSE(fs::exists(folder_ / "out/grain19.txt.part"));
 }
 
+TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
+  GrainJob job = number_job("out");
+  std::atomic<int> made{0};
+  job.make = [&, make = job.make](GrainAtWork& grain) {
+    if (grain.name == "folder/grain2.ply") throw Error(ErrorCode::InvalidInput, "No grain.");
+    ++made;
+    return make(grain);
+  };
+  Points grains(10);
+  run_job(job, grains, {1});
+  const std::string table = content("out/grains.csv");
+  fs::remove(folder_ / "out/grain7.txt");
+  write_file((folder_ / "out/grain5.txt").string(), "");
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 5) << "from grain 5 on; grain 2 failed and has no file";
+  EXPECT_EQ(content("out/grain5.txt"), "5");
+  EXPECT_EQ(content("out/grain7.txt"), "7");
+  EXPECT_EQ(content("out/grains.csv"), table);
+}
+
+TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
+  GrainJob batch = number_job("out");
+  batch.call = "{\"format\": \"wscvt-batch\"}\n";
+  GrainJob other = number_job("out");
+  other.call = "{\"format\": \"wscvt-extract\"}\n";
+  other.is_kept = false;
+  Points grains(3);
+  run_job(batch, grains, {1});
+  const std::string table = content("out/grains.csv");
+  for (const auto& begun :
+       std::vector<std::function<void()>>{[&] { run_job(other, grains, {1}); },
+                                          [&] { require_no_job((folder_ / "out").string()); }}) {
+    try {
+      begun();
+      FAIL() << "the files were replaced";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("another command (wscvt-batch)"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_EQ(content("out/grains.csv"), table);
+  EXPECT_EQ(content("out/call.json"), batch.call);
+  require_no_job((folder_ / "elsewhere").string());
+}
+
 TEST_F(Job, PartsAreTheWhole) {
   Points grains(40);
   run_job(number_job("whole"), grains, {2});

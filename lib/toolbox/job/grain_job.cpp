@@ -17,6 +17,7 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
+#include "wscvt/report/json.h"
 
 namespace wscvt {
 
@@ -70,6 +71,17 @@ bool is_begun(const JobFolder& folder, const std::string& table_name) {
   return false;
 }
 
+/// Returns the format of a call, such as "wscvt-batch"; empty if the text is none.
+std::string format_of_call(const std::string& text) {
+  const Json call = Json::parse(text, nullptr, false);
+  return call.is_object() ? call.value("format", "") : "";
+}
+
+[[noreturn]] void refuse_folder(const std::string& folder, const std::string& format) {
+  refuse("The folder \"" + folder + "\" has the results of another command (" + format +
+         "), which would be replaced. Give another folder with " + mention("output") + ".");
+}
+
 /// Returns whether the folder has the options of a job. Throws Error if it is kept with others.
 bool has_call(const JobFolder& folder, const GrainJob& job) {
   const std::string path = folder.file("call", ".json");
@@ -78,6 +90,8 @@ bool has_call(const JobFolder& folder, const GrainJob& job) {
   if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
   const std::string before((std::istreambuf_iterator<char>(file)), {});
   if (before == job.call) return true;
+  const std::string other = format_of_call(before);
+  if (!other.empty() && other != format_of_call(job.call)) refuse_folder(folder.path(), other);
   if (job.is_kept && is_begun(folder, job.tables.front().name)) {
     refuse("The folder is of a call with other options or of another version: see \"" + path +
            "\". Use the options of that file, or give another folder with " + mention("output") +
@@ -175,9 +189,10 @@ class PartRows {
 class JobTables {
  public:
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed job
-  /// may have added a row to only some of them.
+  /// may have added a row to only some of them. With `keeps_files`, also cuts them at the first
+  /// grain whose file is missing or empty, so that it is made again.
   JobTables(const std::vector<JobFolder>& folders, const std::vector<JobTable>& tables,
-            const std::vector<std::string>& grains)
+            const std::vector<std::string>& grains, bool keeps_files)
       : rows_(grains.size()) {
     for (const JobFolder& folder : folders) {
       for (const JobTable& table : tables) {
@@ -185,6 +200,9 @@ class JobTables {
             std::make_unique<SampleTable>(folder.file(table.name, ".csv"), table.header, grains));
         rows_ = std::min(rows_, tables_.back()->rows());
       }
+    }
+    for (std::size_t k = 0; keeps_files && k < rows_; ++k) {
+      if (!tables_.front()->is_failed(k) && !has_files(folders, grains[k])) rows_ = k;
     }
     for (const auto& table : tables_) table->keep(rows_);
   }
@@ -199,6 +217,14 @@ class JobTables {
   }
 
  private:
+  static bool has_files(const std::vector<JobFolder>& folders, const std::string& grain) {
+    return std::all_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
+      std::error_code missing;
+      const std::uintmax_t size = fs::file_size(folder.file_of(grain), missing);
+      return !missing && size > 0;
+    });
+  }
+
   std::size_t rows_;
   std::vector<std::unique_ptr<SampleTable>> tables_;
 };
@@ -288,6 +314,13 @@ std::vector<JobFolder> folders_of(const GrainJob& job) {
   return folders;
 }
 
+void require_no_job(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / "call.json", std::ios::binary);
+  const std::string call((std::istreambuf_iterator<char>(file)), {});
+  const std::string format = format_of_call(call);
+  if (!format.empty()) refuse_folder(folder, format);
+}
+
 JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   const JobFolder whole(job.folder, job.ending, job.shard);
   const std::vector<JobFolder> folders = folders_of(job);
@@ -309,7 +342,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
       fs::create_directories(fs::path(folder.path()) / files.folder, ignored);
     }
   }
-  JobTables tables(folders, job.tables, names);
+  JobTables tables(folders, job.tables, names, job.is_kept);
   remove_partial_file(whole.file("call", ".json"));
   remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {

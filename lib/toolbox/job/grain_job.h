@@ -99,6 +99,10 @@ struct GrainJob {
 /// Returns the folders of the levels; if there are no levels, the folder of the job.
 std::vector<JobFolder> folders_of(const GrainJob& job);
 
+/// Throws Error(InvalidInput) if a job keeps its results in this folder. For commands that write
+/// other files there.
+void require_no_job(const std::string& folder);
+
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.

@@ -51,6 +51,7 @@ class SampleTable {
 
   /// Number of rows found when opened. They belong to the first grains.
   std::size_t rows() const { return rows_.size(); }
+  bool is_failed(std::size_t row) const { return rows_.at(row).failed; }
   /// Number of these rows with failed grains.
   std::size_t failed_rows() const;
 
