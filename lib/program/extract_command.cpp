@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -63,11 +62,10 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
     work.write(in_folder(name),
                [&](const std::string& path, const Execution&) { write_file(path, text); });
   };
-  const std::string rows =
-      std::accumulate(grains.labels().begin(), grains.labels().end(), label_header(),
-                      [&](std::string text, const LabelExtent& label) {
-                        return std::move(text) + label_row(arguments.input, grains, label, {});
-                      });
+  std::string rows = label_header();
+  for (const LabelExtent& label : grains.labels()) {
+    rows += label_row(arguments.input, grains, label, {});
+  }
   write("labels.csv", rows);
   write("walls.vtu", walls_vtu(result, labels));
   write("walls.msh", walls_msh(result, labels));

@@ -127,6 +127,17 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
   EXPECT_LT(errors[12], 1.5);
 }
 
+TEST_F(FabricOfAFile, RefusesGreyValues) {
+  std::mt19937 random(22);
+  MadeVolume scan = chain();
+  for (Label& voxel : scan.labels) voxel = 60 + 5 * voxel + random() % 4;
+  write_labels(scan);
+  const std::string sentence =
+      test::refusal(ErrorCode::InvalidInput, [&] { measured("labels.nrrd"); });
+  EXPECT_NE(sentence.find("look like grey values"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("wscvt segment"), std::string::npos) << sentence;
+}
+
 TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
   std::mt19937 random(21);
   std::normal_distribution<double> normal;

@@ -3,16 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <filesystem>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
+#include "support/seeds.h"
 #include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
@@ -40,6 +43,41 @@ class LabelGrainsOfAFile : public testing::Test {
 
   std::string path_;
 };
+
+// Noise tells grey values from labels, small grains do not.
+TEST_F(LabelGrainsOfAFile, RefusesGreyValuesButNoSmallGrains) {
+  std::mt19937 random(static_cast<unsigned>(test::announced(20261127)));
+  for (const std::array<int, 3>& counts :
+       {std::array<int, 3>{30, 20, 20}, std::array<int, 3>{90, 70, 40}}) {
+    MadeVolume scan(counts);
+    scan.fill_ball(80, {12, 9, 9}, 7.0);
+    for (Label& voxel : scan.labels) voxel += 60 + random() % 4;
+    write(scan);
+    for (const bool parts : {false, true}) {
+      VolumeOptions options;
+      options.parts = parts;
+      const std::string sentence = test::refusal(
+          ErrorCode::InvalidInput, [&] { LabelGrains(path_, options, Execution(1)); });
+      EXPECT_NE(sentence.find("look like grey values"), std::string::npos) << sentence;
+      EXPECT_NE(sentence.find("wscvt segment"), std::string::npos) << sentence;
+    }
+    // Touching grains of 3 voxels, and plates of one.
+    MadeVolume grains(counts);
+    MadeVolume plates(counts);
+    for (std::size_t k = 0; k < grains.labels.size(); ++k) {
+      const int x = static_cast<int>(k) % counts[0];
+      const int y = static_cast<int>(k) / counts[0] % counts[1];
+      const int z = static_cast<int>(k) / (counts[0] * counts[1]);
+      grains.labels[k] = static_cast<Label>(1 + x / 3 + 100 * (y / 3) + 10000 * (z / 3));
+      plates.labels[k] = static_cast<Label>(1 + x);
+    }
+    write(grains);
+    EXPECT_GT(LabelGrains(path_, {}, Execution(1)).labels().size(), 100U);
+    write(plates);
+    EXPECT_EQ(LabelGrains(path_, {}, Execution(1)).labels().size(),
+              static_cast<std::size_t>(counts[0]));
+  }
+}
 
 TEST_F(LabelGrainsOfAFile, SortsLabelsOutAndReadsThemInTheOrderOfTheirLastSlices) {
   MadeVolume volume({60, 40, 50});

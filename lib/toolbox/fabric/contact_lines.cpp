@@ -170,12 +170,19 @@ class LineCounter {
 ContactLines contact_lines(LabelVolume& volume, Label background, const Execution& execution) {
   const VoxelCounts& counts = volume.geometry().counts;
   LineCounter counter(counts, background);
+  GreyCheck check(background);
   volume.rewind();
   for (std::int32_t z = 0; z < counts[2]; ++z) {
     execution.report(static_cast<double>(z) / counts[2], "Finding contacts");
     counter.begin_slice();
-    for (std::int32_t y = 0; y < counts[1]; ++y) counter.add_row(volume.next_row(), y, z);
+    for (std::int32_t y = 0; y < counts[1]; ++y) {
+      const std::vector<Label>& row = volume.next_row();
+      counter.add_row(row, y, z);
+      check.add_row(row, y);
+    }
+    check.end_slice();
   }
+  check.end();
   return counter.result();
 }
 

@@ -7,6 +7,7 @@
 
 #include "toolbox/volume/part_tracker.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
@@ -109,6 +110,32 @@ class Census {
 
 }  // namespace
 
+void GreyCheck::Neighbours::count(const Label* a, const Label* b, std::size_t size,
+                                  Label background) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const bool are_labels = (a[k] != background) & (b[k] != background);
+    all += are_labels ? 1 : 0;
+    different += are_labels & (a[k] != b[k]) ? 1 : 0;
+  }
+}
+
+void GreyCheck::add_row(const std::vector<Label>& row, std::int32_t y) {
+  along_x_.count(row.data(), row.data() + 1, row.size() - 1, background_);
+  if (y > 0) along_y_.count(row.data(), before_.data(), row.size(), background_);
+  before_ = row;
+}
+
+void GreyCheck::check(std::uint64_t fewest) const {
+  constexpr double most = 0.5;
+  if (along_x_.all < fewest || along_y_.all < fewest) return;
+  const double share = std::min(along_x_.share(), along_y_.share());
+  if (share <= most) return;
+  throw Error(ErrorCode::InvalidInput,
+              "These look like grey values, not labels: " + format_percent(share) +
+                  " of all neighbouring voxels differ. Make labels of them first: wscvt segment "
+                  "SCAN labels.nrrd.");
+}
+
 bool LabelExtent::touches_border(const VoxelCounts& counts) const {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (begin[axis] == 0 || end[axis] == counts[axis]) return true;
@@ -120,12 +147,19 @@ std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
                                       const Execution& execution) {
   const VoxelCounts& counts = volume.geometry().counts;
   Census census(counts, background);
+  GreyCheck check(background);
   volume.rewind();
   for (std::int32_t z = 0; z < counts[2]; ++z) {
     execution.report(static_cast<double>(z) / counts[2], "Counting labels");
-    for (std::int32_t y = 0; y < counts[1]; ++y) census.add_row(volume.next_row(), y, z);
+    for (std::int32_t y = 0; y < counts[1]; ++y) {
+      const std::vector<Label>& row = volume.next_row();
+      census.add_row(row, y, z);
+      check.add_row(row, y);
+    }
     census.end_slice();
+    check.end_slice();
   }
+  check.end();
   return census.labels();
 }
 

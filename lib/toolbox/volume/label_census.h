@@ -29,6 +29,34 @@ struct LabelExtent {
 /// Largest number of labels of a volume. A grey image mistaken for labels has more.
 inline constexpr std::size_t most_labels = 1000000;
 
+/// Tells grey values from labels: noise makes most neighbours differ, but a grain of labels has
+/// neighbours inside. Counts neighbours along x and along y that are both not the background.
+class GreyCheck {
+ public:
+  explicit GreyCheck(Label background) : background_(background) {}
+  void add_row(const std::vector<Label>& row, std::int32_t y);
+
+  /// Throws Error(InvalidInput) if of enough neighbours more than half differ along both axes. To
+  /// be called after each slice: grey values of 16 bits have more pairs of neighbours than memory
+  /// has room for.
+  void end_slice() const { check(100000); }
+  void end() const { check(1000); }
+
+ private:
+  struct Neighbours {
+    std::uint64_t all = 0;
+    std::uint64_t different = 0;
+    void count(const Label* a, const Label* b, std::size_t size, Label background);
+    double share() const { return static_cast<double>(different) / static_cast<double>(all); }
+  };
+  void check(std::uint64_t fewest) const;
+
+  Label background_;
+  std::vector<Label> before_;  ///< the row before
+  Neighbours along_x_;
+  Neighbours along_y_;
+};
+
 /// Calls visit(label, y, z, begin, end) for every stretch of one label along x, in the order of the
 /// file; stops if visit returns false.
 template <class Visit>
@@ -47,8 +75,8 @@ bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t
 
 /// Reads the volume once from its beginning, and returns its labels without the background, in
 /// their order, with the number of pieces of each. Needs memory for the labels and the stretches of
-/// two slices. Throws Error: InvalidInput for more than `most_labels`, Cancelled, and what the
-/// volume throws.
+/// two slices. Throws Error: InvalidInput for more than `most_labels` and for grey values, see
+/// GreyCheck, Cancelled, and what the volume throws.
 std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
                                       const Execution& execution);
 

@@ -221,11 +221,15 @@ bool are_phases(const std::vector<std::uint16_t>& grey, const std::vector<std::u
   const std::unique_ptr<LabelVolume> parts =
       parts_of(std::make_unique<HeldVolume>(geometry, std::vector<Label>(grey.begin(), grey.end())),
                none, execution);
-  const std::vector<LabelExtent> all = label_census(*parts, 0, execution);
-  const auto is_large = [&](const LabelExtent& part) {
-    return static_cast<std::int64_t>(part.voxels) >= options.smallest;
-  };
-  const auto large = std::count_if(all.begin(), all.end(), is_large);
+  std::vector<std::int64_t> voxels;  // of each part
+  for_each_row(*parts, execution, [&](const std::vector<Label>& row) {
+    for (const Label part : row) {
+      if (part >= voxels.size()) voxels.resize(part + std::size_t{1}, 0);
+      ++voxels[part];
+    }
+  });
+  const auto large = std::count_if(voxels.begin(), voxels.end(),
+                                   [&](std::int64_t count) { return count >= options.smallest; });
   return large >= 2 * values;
 }
 
