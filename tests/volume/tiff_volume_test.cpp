@@ -155,15 +155,23 @@ TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 1.0)).norm(), 1e-7);
   ASSERT_EQ(notes("a.tif").size(), 1U);
   EXPECT_NE(notes("a.tif")[0].find("1 mm"), std::string::npos);
-  for (const char* none : {"", "unit=pixel\nspacing=3\n"}) {
-    stack.text = std::string("ImageJ=1.53\nimages=3\nslices=3\n") + none;
+  // A distance of slices without a unit still says how long the voxels are.
+  for (const char* unitless : {"spacing=3\n", "unit=pixel\nspacing=3\n"}) {
+    stack.text = std::string("ImageJ=1.53\nimages=3\nslices=3\n") + unitless;
     write_tiff(path("a.tif"), stack, pages());
-    EXPECT_FALSE(geometry("a.tif").has_size);
-    EXPECT_EQ(geometry("a.tif").voxel_volume(), 1.0);
+    EXPECT_TRUE(geometry("a.tif").has_size);
+    EXPECT_EQ(geometry("a.tif").unit, "");
+    EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 3.0)).norm(), 1e-7);
     ASSERT_EQ(notes("a.tif").size(), 1U);
-    EXPECT_NE(notes("a.tif")[0].find("Voxel size not in the file: lengths in voxels"),
-              std::string::npos);
+    EXPECT_NE(notes("a.tif")[0].find("the unit is unknown"), std::string::npos);
   }
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_FALSE(geometry("a.tif").has_size);
+  EXPECT_EQ(geometry("a.tif").voxel_volume(), 1.0);
+  ASSERT_EQ(notes("a.tif").size(), 1U);
+  EXPECT_NE(notes("a.tif")[0].find("Voxel size not in the file: lengths in voxels"),
+            std::string::npos);
 }
 
 TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
@@ -177,6 +185,18 @@ TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
   VolumeChoice choice;
   choice.voxel_size = Vector3(1, 2, 4);
   EXPECT_TRUE(open_volume(path("a.tif"), choice)->notes().empty());
+  // A text that gives only the shape takes no size away.
+  stack.text = R"({"shape": [3, 5, 7]})";
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_EQ(geometry("a.tif").unit, "mm");
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.005, 0.01, 0.005)).norm(), 1e-9);
+  stack.text = R"({"shape": [3, 5, 7], "spacing": 0.25, "unit": "um"})";
+  stack.resolution = 20.0;
+  stack.resolution_unit = RESUNIT_NONE;
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_EQ(geometry("a.tif").unit, "um");
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 0.25)).norm(), 1e-7);
+  stack.text = "";
   stack.resolution_unit = RESUNIT_INCH;
   for (const double paper : {72.0, 300.0, 600.0, 1200.0, 2400.0}) {
     stack.resolution = paper;
@@ -309,6 +329,12 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   stack.text = R"({"shape": [3, 5, 7]})";
   write_tiff(path("a.tif"), stack, pages());
   expect_made("a.tif");
+  // To choose one of the frames would lead to one image.
+  for (const char* axes : {"TYX", "CYX"}) {
+    stack.text = std::string(R"({"shape": [3, 5, 7], "axes": ")") + axes + "\"}";
+    write_tiff(path("a.tif"), stack, pages());
+    expect_refused("a.tif", {"one slice", "3 pages are channels or frames", "ZYX"});
+  }
 }
 
 TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
@@ -634,6 +660,21 @@ TEST_F(TiffVolume, NamesTwoSeriesInAFolderAndLeavesAPreviewOut) {
   expect_made("slices");
   write_slices("scan2_", "");
   expect_refused("slices", {"scan1_8.tif", "scan2_8.tif"});
+}
+
+TEST_F(TiffVolume, RefusesTwoSlicesOfOneNumber) {
+  fs::create_directory(folder_ / "slices");
+  for (int z = 0; z < 3; ++z) {
+    write_tiff(path("slices/s00" + std::to_string(z) + ".tif"), as(), {page(z)});
+  }
+  expect_made("slices");
+  for (const char* again : {"s1", "S01", "s0001"}) {
+    const std::string name = std::string(again) + ".tif";
+    write_tiff(path("slices/" + name), as(), {page(1)});
+    expect_refused("slices", {"number 1 twice", "s001.tif", name});
+    fs::remove(path("slices/" + name));
+  }
+  expect_made("slices");
 }
 
 TEST_F(TiffVolume, ReadsSlicesOfBmp) {

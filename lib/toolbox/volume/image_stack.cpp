@@ -169,6 +169,25 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
   paths = series.front();
 }
 
+/// Refuses two slices with the same numbers, such as 5 and 005: one is of another export.
+void check_numbers(const std::string& folder, const std::vector<std::string>& paths) {
+  std::map<std::pair<std::string, std::vector<std::string>>, std::string> found;
+  for (const std::string& path : paths) {
+    std::vector<std::string> numbers = numbers_of(path);
+    for (std::string& number : numbers) {
+      number.erase(0, std::min(number.find_first_not_of('0'), number.size() - 1));
+    }
+    if (numbers.empty()) continue;
+    const std::string last = numbers.back();
+    const std::string name = fs::path(path).filename().string();
+    const auto [other, is_new] = found.emplace(std::pair(pattern_of(path), numbers), name);
+    if (is_new) continue;
+    refuse_volume(folder, "has the number " + last + " twice: " + in_quotes(other->second) +
+                              " and " + in_quotes(name) +
+                              ". Move the one that is of another series to a folder of its own.");
+  }
+}
+
 /// Returns a sentence about the first missing slice of numbered names; empty if none is missing.
 std::string sentence_of_gap(const std::vector<std::string>& paths) {
   std::vector<std::int64_t> numbers;
@@ -220,6 +239,7 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
     refuse_volume(path, "has no .tif, .png or .bmp file. Check its name.");
   }
   keep_one_series(path, *kind, content.others);
+  check_numbers(path, *kind);
   const SliceFiles slices = {path, *kind};
   std::unique_ptr<LabelVolume> volume = kind == &content.tiffs  ? open_tiff_slices(slices, choice)
                                         : kind == &content.pngs ? open_png_slices(slices, choice)

@@ -19,7 +19,7 @@ struct TiffLayout {
   /// The page of each position in `axes`; empty: they are consecutive.
   std::vector<std::int64_t> pages;
   std::int64_t samples = 1;  ///< numbers per voxel, on one page
-  /// Not above 0 if unknown. ImageJ's is along z; x and y come from the resolution.
+  /// Not above 0 if unknown. ImageJ's and tifffile's is along z; x and y come from the resolution.
   Vector3 voxel_size = Vector3::Zero();
   std::string unit;
   /// All voxels are one block after the only page.

@@ -102,9 +102,9 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   read_calibration(text, layout);
   const std::string unit = text.value("unit");
   layout.unit = unit_of(unit);
-  if (layout.unit.empty()) return layout;
   // ImageJ omits a spacing of 1, and reads a missing spacing as 1.
   const std::optional<double> spacing = number_in(text.value("spacing"));
+  if (layout.unit.empty() && !spacing) return layout;
   layout.voxel_size = Vector3::Constant(spacing ? std::abs(*spacing) : 1.0);
   if (!spacing) {
     layout.notes.push_back("ImageJ noted no distance of slices, which means 1 " + layout.unit +
@@ -139,6 +139,13 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   TiffLayout layout;
   layout.writer = "tifffile";
   layout.samples = page.samples;
+  // Other keys are the caller's; these two are named as in ImageJ's text.
+  if (json.contains("spacing") && json["spacing"].is_number()) {
+    layout.voxel_size = Vector3::Constant(std::abs(json["spacing"].get<double>()));
+    if (json.contains("unit") && json["unit"].is_string()) {
+      layout.unit = unit_of(json["unit"].get<std::string>());
+    }
+  }
   const Json shape = json["shape"];
   std::vector<std::int64_t> counts;
   for (const Json& count : shape) {

@@ -329,6 +329,11 @@ void set_lattice_turned(VolumeGeometry& geometry, const Vector3& size, int orien
   }
 }
 
+/// Whether the size of voxels is the page's: no text, or one that gives only the shape.
+bool is_by_pages(const TiffLayout& layout) {
+  return layout.writer.empty() || layout.writer == "tifffile";
+}
+
 /// Sets the lattice from the text of ImageJ or OME, or from the page's resolution.
 void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const Page& page,
                          TiffLayout& layout, const VolumeChoice& choice) {
@@ -337,7 +342,8 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
   geometry.size_source = layout.writer + "'s text";
-  if (layout.writer == "ImageJ" && size.z() > 0.0 && resolution) {
+  const bool is_by_imagej = layout.writer == "ImageJ";
+  if (size.z() > 0.0 && resolution && (is_by_imagej || unit == RESUNIT_NONE)) {
     // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
@@ -351,7 +357,14 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
                              "used.");
       size = Vector3::Zero();
     }
-  } else if (layout.writer.empty() && resolution && unit != RESUNIT_NONE) {
+    if (layout.unit.empty() && size == Vector3::Ones()) size = Vector3::Zero();  // of no scan
+    if (layout.unit.empty() && size.minCoeff() > 0.0) {
+      layout.notes.push_back(layout.writer +
+                             "'s text has a distance of slices, but no unit: the unit is unknown. "
+                             "Give it by " +
+                             mention("voxel-size", "X,Y,Z") + ".");
+    }
+  } else if (is_by_pages(layout) && resolution && unit != RESUNIT_NONE) {
     // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
     constexpr double finest_dot_cm = 2.54 / 1200.0;
     if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
@@ -362,7 +375,7 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
           "Voxel size from the TIFF's resolution, along z as along x: " + format_number(size.x()) +
           " mm. Give another by " + mention("voxel-size", "X,Y,Z") + ".");
     }
-  } else if (layout.writer == "ImageJ") {
+  } else if (layout.writer != "OME") {
     size = Vector3::Zero();
   }
   geometry.has_size = size.minCoeff() > 0.0;
@@ -434,9 +447,6 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
   const std::string& path = file.path();
   TiffLayout layout =
       tiff_layout(file.description(), file.pages(), {page.width, page.height, page.samples}, path);
-  // Each kind of dimension is selected once.
-  const std::int64_t channel =
-      chosen_place(channels_of(layout, page.shows_colours && !choice.channel, path), choice, path);
   VolumeAxis frames = {AxisKind::Frame, 1};
   std::vector<std::int64_t> places;
   std::int64_t slices = 1;
@@ -451,6 +461,16 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
       frames.count = axis.count;
     }
   }
+  const std::int64_t pages = file.pages();
+  if (slices == 1 && pages > 1 && !layout.writer.empty()) {
+    refuse_volume(path, "has one slice: " + layout.writer + "'s text says that its " +
+                            std::to_string(pages) +
+                            " pages are channels or frames. If they are slices, save it again with "
+                            "the axes ZYX.");
+  }
+  // Each kind of dimension is selected once.
+  const std::int64_t channel =
+      chosen_place(channels_of(layout, page.shows_colours && !choice.channel, path), choice, path);
   const std::int64_t frame = chosen_place(frames, choice, path);
   for (const VolumeAxis& axis : layout.axes) {
     const bool has_more = axis.count > 1;
@@ -543,7 +563,7 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
     volume->add_note(
         "The TIFF shows 0 as white. Its numbers were used unchanged. This is correct if the space "
         "between the grains is white. Otherwise give " +
-        mention("background") + ".");
+        mention("background") + ", or to segment it " + mention("dark") + ".");
   }
   return volume;
 }
