@@ -138,9 +138,10 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
           : std::to_string(in_pieces) + (in_pieces == 1 ? " label of " : " labels of ") +
                 std::to_string(grains.taken().size()) + (in_pieces == 1 ? " is" : " are") +
                 " in several parts. Only the largest part of each label is used. The others, " +
-                share +
-                " of all voxels, are left out. If the numbers are grey values, make labels "
-                "of them first, by wscvt segment.";
+                share + " of all voxels, are left out." +
+                (2 * in_pieces > grains.taken().size() ? " If the numbers are grey values, make "
+                                                         "labels of them first, by wscvt segment."
+                                                       : "");
   std::fprintf(stderr,
                "Warning: %s To make each part a grain: %s --parts. --separate 0.85 also separates "
                "grains that touch.\n",
