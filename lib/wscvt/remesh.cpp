@@ -56,6 +56,14 @@ RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& 
       execution);
 }
 
+/// Tells of intersecting triangles of the scan, unless those of the remesh tell of them.
+void add_crossing_warning(const RepairedScan& repaired, RemeshResult& result) {
+  const OnScanReport* on_scan = on_scan_report(result);
+  const bool is_told = on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0;
+  if (repaired.crossing_warning.empty() || is_told) return;
+  result.warnings.push_back(repaired.crossing_warning);
+}
+
 /// Returns an opening whose shrink-wrap of a scan has no intersecting triangles if it is remeshed
 /// with these options; 0 if neither tried one has.
 double clean_wrap(const IndexedMesh& scan, RemeshOptions options, int node_count,
@@ -93,6 +101,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
                    execution.part(1.0, 1.0));
   }
   result.warnings = remesh_warnings(result, repaired.precision_warning);
+  add_crossing_warning(repaired, result);
   result.repaired_scan = std::move(kept);
   execution.report(1.0, "Done");
   return result;
@@ -121,6 +130,7 @@ std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
     const double begin = 0.3 + share * static_cast<double>(results.size());
     results.push_back(remesh_prepared(grain, options, count, execution.part(begin, begin + share)));
     results.back().warnings = remesh_warnings(results.back(), repaired.precision_warning);
+    add_crossing_warning(repaired, results.back());
   }
   results.front().repaired_scan = std::move(kept);
   return results;

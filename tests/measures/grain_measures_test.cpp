@@ -90,6 +90,19 @@ TEST(GrainMeasures, TellWhereSdqIsWhatItsClipSays) {
   EXPECT_EQ(count_of(told(test::lumpy(4)), "Walls"), 0);
 }
 
+TEST(GrainMeasures, TellOfTrianglesThatIntersect) {
+  IndexedMesh dented = test::lumpy(4);
+  const Vector3 place = dented.points[100];
+  for (Vector3& p : dented.points) {
+    if ((p - place).norm() < 0.25) p *= -0.6;
+  }
+  const auto told = [](const IndexedMesh& mesh) {
+    return remarks(measure_grain({"body", mesh}, {}, DetailedOptions(), Execution(1)));
+  };
+  EXPECT_EQ(count_of(told(dented), "of triangles of 'body' intersect"), 1);
+  EXPECT_EQ(count_of(told(test::lumpy(4)), "intersect"), 0);
+}
+
 TEST(GrainMeasures, RefuseAnOpenMeshByItsName) {
   IndexedMesh open = test::sphere(2);
   open.triangles.resize(open.triangles.size() / 2);  // more than is mended

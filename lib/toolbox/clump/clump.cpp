@@ -255,7 +255,9 @@ ClumpResult make_clump(IndexedMesh scan, const ClumpOptions& options, const Exec
   result.repaired_scan = std::move(repaired.checked.mesh);
   result.scan = describe_shape(result.repaired_scan, execution);
   result.equivalent_radius = equivalent_radius(result.scan.volume);
-  if (!repaired.precision_warning.empty()) result.warnings.push_back(repaired.precision_warning);
+  for (const std::string& warning : {repaired.precision_warning, repaired.crossing_warning}) {
+    if (!warning.empty()) result.warnings.push_back(warning);
+  }
 
   const UnitFrame frame(result.scan);
   const IndexedMesh unit = frame.to_unit(result.repaired_scan);

@@ -9,6 +9,7 @@
 #include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/voxel_steps.h"
+#include "wscvt/surface/crossing_pairs.h"
 
 namespace wscvt {
 
@@ -30,7 +31,9 @@ MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
     const DetailedDescriptors descriptors =
         describe_shape_in_detail(checked.mesh, options, execution);
     const SurfaceTexture texture = surface_texture(checked.mesh);
-    return {std::move(grain.name), std::move(checked), descriptors, texture};
+    std::string crossings = crossing_sentence(
+        crossing_pairs(checked.mesh, execution.part(1.0, 1.0)), "'" + grain.name + "'");
+    return {std::move(grain.name), std::move(checked), descriptors, texture, std::move(crossings)};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
     throw Error(error.code(), "'" + grain.name + "': " + error.sentence());
@@ -95,6 +98,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
   } else if (report.has_voxel_steps) {
     sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
   }
+  if (!grain.crossing_remark.empty()) sentences.push_back(grain.crossing_remark);
   if (report.stray_distance > 0.0) {
     sentences.push_back(stray_vertex_sentence(report) + " Check that it belongs to the grain.");
   }

@@ -27,6 +27,7 @@ struct MeasuredGrain {
   CheckedMesh checked;
   DetailedDescriptors descriptors;
   SurfaceTexture texture = {};
+  std::string crossing_remark = {};  ///< on triangles that intersect; empty without
 };
 
 /// A grain and an optional reference for errors and distances.

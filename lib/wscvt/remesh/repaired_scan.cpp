@@ -8,6 +8,7 @@
 #include "wscvt/repair/overhangs.h"
 #include "wscvt/repair/point_cloud.h"
 #include "wscvt/repair/shrink_wrap.h"
+#include "wscvt/surface/crossing_pairs.h"
 
 namespace wscvt {
 
@@ -31,6 +32,8 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
   check.repaired_area_limit_percent = options.max_repaired_area_percent;
   repaired.checked =
       check_mesh(std::move(scan), check, execution.part(options.points || wraps ? 0.85 : 0.0, 1.0));
+  repaired.crossing_warning = crossing_sentence(
+      crossing_pairs(repaired.checked.mesh, execution.part(1.0, 1.0)), "the scan");
   MeshCheckReport& report = repaired.checked.report;
   if (options.points && !wraps) {
     repaired.steep_area_fraction =

@@ -15,6 +15,7 @@ struct RepairedScan {
   CheckedMesh checked;
   double steep_area_fraction = 0.0;  ///< of a surface made of points, see RemeshResult; else 0
   std::string precision_warning;     ///< see precision_warning
+  std::string crossing_warning;      ///< on triangles that intersect; empty without
 };
 
 /// Makes a surface of points and shrink-wraps the scan, if asked for, and repairs it (see
