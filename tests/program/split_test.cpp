@@ -76,7 +76,7 @@ TEST_F(Bodies, NamesBodiesAndOnlyListsOpenOnes) {
   const Outcome outcome = run("extract named.obj out");
   EXPECT_EQ(outcome.output, "3 bodies: 2 written, 1 open and only listed\n") << outcome.errors;
   // Most of the faces are not written.
-  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_NE(outcome.errors.find("of the faces. They are only listed"), std::string::npos);
   const auto rows = test::csv_records(content("out/bodies.csv"));
   ASSERT_EQ(rows.size(), 4U);
