@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
-#include <map>
 #include <new>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "wscvt/base/error.h"
@@ -21,7 +19,7 @@
 #include "wscvt/report/report.h"
 
 struct wscvt_remesher {
-  std::map<std::string, std::string> options;
+  wscvt::TypedOptions options;
   wscvt_progress progress = nullptr;
   void* data = nullptr;
   std::optional<wscvt::IndexedMesh> scan;
@@ -44,63 +42,13 @@ std::string in_words_of_c(const Sentence& sentence) {
   });
 }
 
-/// Reads the options that were set.
-class ReadOptions {
- public:
-  explicit ReadOptions(const std::map<std::string, std::string>& given) : given_(given) {}
-
-  template <class Number>
-  void operator()(Number& value, const NumberOption<Number>& option) {
-    if (const std::string* text = find(option.key)) value = from_typed(*text, option);
-  }
-  void operator()(bool& value, const FlagOption& option) {
-    const std::string* const text = find(option.key);
-    if (text == nullptr) return;
-    if (*text != "true" && *text != "false") {
-      refuse("The option " + std::string(option.key) + " is \"" + *text +
-             "\". Give true or false.");
-    }
-    value = *text == "true";
-  }
-  template <class Enumeration>
-  void operator()(Enumeration& value) {
-    constexpr std::string_view key = EnumerationTable<Enumeration>::key;
-    const std::string* const text = find(key);
-    if (text == nullptr) return;
-    const std::string name = lower_case(*text);
-    const Sentence refusal = refusal_of_value(key, name, method_);
-    if (!refusal.empty()) refuse(refusal);
-    value = from_key<Enumeration>(name);
-    if constexpr (std::is_same_v<Enumeration, Method>) method_ = value;
-  }
-
-  /// Throws for options that nothing read.
-  void finish() const {
-    for (const auto& [key, value] : given_) {
-      if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
-      const Sentence refusal = refusal_of_option(key, method_);
-      if (!refusal.empty()) refuse(refusal);
-      refuse("There is no option \"" + key + "\". \"wscvt remesh --help-all\" lists the options.");
-    }
-  }
-
- private:
-  const std::string* find(std::string_view key) {
-    known_.emplace_back(key);
-    const auto found = given_.find(known_.back());
-    return found == given_.end() ? nullptr : &found->second;
-  }
-
-  const std::map<std::string, std::string>& given_;
-  std::vector<std::string> known_;
-  Method method_ = Method::OnScan;
-};
-
-RemeshOptions options_of(const std::map<std::string, std::string>& given) {
+RemeshOptions options_of(const TypedOptions& given) {
   RemeshOptions options;
-  ReadOptions visitor(given);
-  for_each_option(options, visitor);
-  visitor.finish();
+  read_options(given, options, [](std::string_view key, const Sentence& refusal) {
+    if (!refusal.empty()) refuse(refusal);
+    refuse("There is no option \"" + std::string(key) +
+           "\". \"wscvt remesh --help-all\" lists the options.");
+  });
   return options;
 }
 

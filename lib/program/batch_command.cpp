@@ -61,14 +61,7 @@ CLI::App& add_command(CLI::App& program, BatchArguments& arguments) {
   app.add_option("-o,--output", arguments.folder, "Output folder")->type_name("OUT")->required();
   add_shard_argument(app, arguments.shard);
   add_format_argument(app, arguments.job.format);
-  app.add_flag("--seconds", arguments.job.seconds,
-               "Add the run time of each grain to the table; it differs between runs")
-      ->group(finer_settings);
   add_choice(app, "--describe", arguments.job.shapes.described);
-  app.add_flag("--contacts", arguments.job.shapes.contacts,
-               "Add the error of first contact to shape.csv: two remeshes against two scans, over "
-               "random pairs of poses")
-      ->group(finer_settings);
   add_remesh_arguments(app, arguments.job.remesh);
   add_simulation_arguments(app, arguments.job);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
@@ -97,6 +90,7 @@ int run(const BatchArguments& arguments) {
   const std::unique_ptr<GrainSource> inputs =
       open_inputs(files, arguments.job.volume, arguments.shard, arguments.quiet);
   RemeshJob options = arguments.job;
+  options.shapes.contacts = options.shapes.described == Described::Contacts;
   options.shapes.resolution =
       describes_scan(options.shapes.described) &&
       (options.volume.choice.voxel_size || std::any_of(files.begin(), files.end(), is_volume));

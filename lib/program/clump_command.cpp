@@ -23,8 +23,12 @@ struct AddClumpOption {
 
   template <class Number>
   void operator()(Number& value, const NumberOption<Number>& option) {
-    const bool is_count = option.key == sphere_count_option.key;
-    add_number(app, (is_count ? "-k,--" : "--") + std::string(option.key), value, option);
+    // As of the other commands: how many are made, and the nodes of a remesh.
+    const std::string name = option.key == sphere_count_option.key ? "-k,--count"
+                             : option.key == compared_nodes_option.key
+                                 ? "-n,--nodes"
+                                 : "--" + std::string(option.key);
+    add_number(app, name, value, option);
   }
   void operator()(ClumpError& value) {
     add_choice(app, "--" + std::string(EnumerationTable<ClumpError>::key), value);
@@ -60,10 +64,11 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
   add_scan_inputs(app, arguments.sample, "clumps", arguments.job.format, EngineShapes::Clumps);
   AddClumpOption add{app};
   for_each_clump_option(arguments.job.clump, add);
-  for (const std::string_view key :
-       {points_option.key, shrink_wrap_option.key, repaired_area_limit_option.key,
-        most_spheres_option.key, compared_nodes_option.key}) {
-    app.get_option("--" + std::string(key))->group(finer_settings);
+  CLI::Option* count = app.get_option("--count");
+  count->description(count->get_description() + "; with an allowed error, at most this many: 200");
+  arguments.count = count;
+  for (const char* name : {"--points", "--shrink-wrap", "--max-repaired-area", "--nodes"}) {
+    app.get_option(name)->group(finer_settings);
   }
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame)
       ->group(finer_settings);
@@ -74,7 +79,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
              clump_density_option)
       ->group(finer_settings);
   add_common_arguments(app, arguments.common);
-  for (const char* name : {"--threads", "--overwrite", "--quiet"}) {
+  for (const char* name : {"--threads", "--quiet"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;
@@ -83,6 +88,7 @@ CLI::App& add_command(CLI::App& program, ClumpArguments& arguments) {
 int run(const ClumpArguments& arguments) {
   const CommonArguments& common = arguments.common;
   ClumpJob job = arguments.job;
+  if (arguments.is_count_given()) job.clump.most_spheres = job.clump.sphere_count;
   checked([&] {
     check_job(job);
     check_engine_inputs(arguments.sample, EngineShapes::Clumps, job.format, job.frame);
@@ -104,17 +110,17 @@ int run(const ClumpArguments& arguments) {
         if (file.rfind(output + "/", 0) != 0) outputs.push_back({"the clump", file});
       }
     }
-    check_output_paths({{"the scan", scan}}, outputs, common.overwrite);
+    check_output_paths({{"the scan", scan}}, outputs);
     for (const std::string& report : common.reports) check_clump_report(report);
   });
   Work work(common);
   MeshFile file = read_mesh_file(scan, work.execution().part(0.0, reading_share));
-  ClumpResult clump = make_clump(std::move(file.mesh), arguments.job.clump,
-                                 work.execution().part(reading_share, 1.0));
+  ClumpResult clump =
+      make_clump(std::move(file.mesh), job.clump, work.execution().part(reading_share, 1.0));
   clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
   for (const std::string& output : arguments.outputs) {
     work.write(output, [&](const std::string& path, const Execution&) {
-      write_clump(path, clump, arguments.job.frame, arguments.job.density);
+      write_clump(path, clump, job.frame, job.density);
     });
   }
   for (const std::string& report : common.reports) {

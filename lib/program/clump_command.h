@@ -16,6 +16,9 @@ struct ClumpArguments {
   ScanInputs sample;
   std::vector<std::string> outputs;  ///< files, the ending selects the format; or one folder
   ClumpJob job;
+  const CLI::Option* count = nullptr;  ///< of spheres
+
+  bool is_count_given() const { return count != nullptr && count->count() > 0; }
   CommonArguments common;
 };
 

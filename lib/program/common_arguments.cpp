@@ -75,7 +75,6 @@ void add_common_arguments(CLI::App& app, CommonArguments& arguments) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_threads_argument(app, arguments.threads);
-  app.add_flag("--overwrite", arguments.overwrite, "Allow an output to replace an input");
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings");
 }
 

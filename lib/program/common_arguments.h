@@ -14,7 +14,6 @@ namespace wscvt::program {
 struct CommonArguments {
   std::vector<std::string> reports;  ///< files; the ending selects the format
   int threads = 0;                   ///< 0: all
-  bool overwrite = false;            ///< an output may replace an input
   bool quiet = false;
   bool verbose = false;  ///< the whole report
 };

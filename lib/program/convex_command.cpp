@@ -26,7 +26,7 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html",
         "scans -k 4 --faces 60 -o bodies --size 0.02 --engine mujoco"},
-       "The cuts are chosen on a remesh of 500 nodes, with the options of wscvt remesh.\n"
+       "The cuts are chosen on a remesh of 500 nodes.\n"
        "The parts are hulls of pieces of the scan, scaled together so that they keep the grain's "
        "volume.",
        true,
@@ -39,23 +39,17 @@ CLI::App& add_command(CLI::App& program, ConvexArguments& arguments) {
       ->allow_extra_args(false)
       ->required();
   add_scan_inputs(app, arguments.sample, "parts", arguments.job.format, EngineShapes::Parts);
-  add_number(app, "-k,--parts", arguments.job.convex.parts, convex_parts_option);
+  add_number(app, "-k,--count", arguments.job.convex.parts, convex_parts_option);
   add_number(app, "--faces", arguments.job.convex.faces, convex_faces_option);
-  add_number(app, "--hull-distance", arguments.job.convex.tolerance, convex_tolerance_option);
+  add_number(app, "--max-error", arguments.job.convex.tolerance, convex_tolerance_option);
   add_number(app, "--density", arguments.job.density, parts_density_option);
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame);
   add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option);
-  add_remesh_arguments(app, arguments.job.remesh);
+  add_remesh_arguments(app, arguments.job.remesh, Remeshed::Parts);
   add_common_arguments(app, arguments.common);
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name(false, true);
-    for (const char* finer :
-         {"--hull-distance", "--scale", "--method", "--weighting", "--placement", "--edge-ratio",
-          "--max-error", "--distances", "--threads", "--overwrite"}) {
-      if (name.find(finer) != std::string::npos) app.get_option(finer)->group(finer_settings);
-    }
-  }
+  for (const char* name : {"--frame", "--scale", "--threads"})
+    app.get_option(name)->group(finer_settings);
   return app;
 }
 
@@ -86,7 +80,7 @@ int run(const ConvexArguments& arguments) {
   checked([&] {
     check_mesh_input(scan);
     for (const std::string& output : arguments.outputs) check_part_file(output);
-    check_output_paths({{"the scan", scan}}, outputs, common.overwrite);
+    check_output_paths({{"the scan", scan}}, outputs);
     for (const std::string& report : common.reports) check_parts_report(report);
   });
   Work work(common);

@@ -18,25 +18,38 @@ namespace wscvt::program {
 
 namespace {
 
-void add_semi_axes(CLI::App& app, Vector3& semi_axes) {
-  const std::string name = "--semi-axes";
-  app.add_option_function<std::vector<std::string>>(
-         name,
-         [&semi_axes, name](const std::vector<std::string>& texts) {
-           for (std::size_t axis = 0; axis < texts.size(); ++axis) {
-             try {
-               semi_axes[static_cast<Eigen::Index>(axis)] =
-                   from_typed(texts[axis], semi_axis_option);
-             } catch (const Error& error) {
-               throw CLI::ValidationError(name, error.what());
-             }
-           }
-         })
-      ->description("Semi-axes along x, y and z, " + range_text(semi_axis_option) +
-                    "; not for harmonics. Default: 1 1 1")
-      ->type_name("X Y Z")
-      ->expected(3)
+/// Adds an argument for several numbers, each with an option of its own.
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, const std::vector<double*>& values,
+                         const std::vector<NumberOption<double>>& options) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [=](const std::vector<std::string>& texts) {
+            for (std::size_t k = 0; k < texts.size(); ++k) {
+              try {
+                *values[k] = from_typed(texts[k], options[k]);
+              } catch (const Error& error) {
+                throw CLI::ValidationError(name, error.what());
+              }
+            }
+          })
+      ->expected(static_cast<int>(values.size()))
       ->allow_extra_args(false);  // the next word is the output
+}
+
+/// Reads "ellipsoid", "superellipsoid", or the name of a file of SH coefficients.
+void read_surface(const std::string& text, GrainSurface& surface) {
+  const std::string word = lower_case(text);
+  if (word == key_of(SurfaceKind::Ellipsoid) || word == key_of(SurfaceKind::Superellipsoid)) {
+    surface.kind = from_key<SurfaceKind>(word);
+    return;
+  }
+  if (word.find('.') == std::string::npos) {
+    refuse("There is no surface \"" + text +
+           "\". Give ellipsoid, superellipsoid, or a file of SH coefficients: .dat, .sh or .json.");
+  }
+  surface.kind = SurfaceKind::Harmonics;
+  surface.coefficients_file = text;
 }
 
 }  // namespace
@@ -49,32 +62,42 @@ CreateArguments::CreateArguments() {
 
 CLI::App& add_command(CLI::App& program, CreateArguments& arguments) {
   CLI::App& app = add_command(
-      program, {"create",
-                "Make a mesh of an ellipsoid, a superellipsoid or an SH series",
-                {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
-                 "superellipsoid rod.stl --semi-axes 2 1 1 --azimuthal-exponent 0.3",
-                 "harmonics grain.ply --coefficients grain.json"},
-                "With --placement on-surface the nodes lie on the surface itself, as with\n"
-                "--method as-published.",
-                true});
-  add_choice(app, "surface", arguments.surface.kind)
+      program,
+      {"create",
+       "Make a mesh of an ellipsoid, a superellipsoid or an SH series",
+       {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
+        "superellipsoid rod.stl --semi-axes 2 1 1 --exponents 1 0.3", "grain.json grain.ply"},
+       "With --placement on-surface the nodes lie on the surface itself, as with\n"
+       "--method as-published.",
+       true});
+  add_typed(
+      app, "surface",
+      [&arguments](std::string_view text) { read_surface(std::string(text), arguments.surface); })
       ->required()
-      ->description(help_of_choices<decltype(arguments.surface.kind)>());
+      ->description(
+          "Surface: ellipsoid, superellipsoid, or a file of SH coefficients: .dat (text of the "
+          "NIST/VCCTL particle shape sets), .sh (SHTOOLS, 4pi) or .json (written by wscvt remesh)\n"
+          "ellipsoid: of the semi-axes\n"
+          "superellipsoid: of the semi-axes and exponents")
+      ->type_name("SURFACE");
   add_output(app, "output", arguments.output, mesh_argument_text("Mesh", MeshUse::Write));
-  add_semi_axes(app, arguments.surface.semi_axes);
-  add_number(app, "--" + std::string(polar_exponent_option.key), arguments.surface.polar_exponent,
-             polar_exponent_option);
-  add_number(app, "--" + std::string(azimuthal_exponent_option.key),
-             arguments.surface.azimuthal_exponent, azimuthal_exponent_option);
-  add_file_argument(app, "--coefficients", arguments.surface.coefficients_file,
-                    "File of harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh "
-                    "(SHTOOLS, 4pi) or .json (written by wscvt remesh)");
-  add_number(app, "--" + std::string(coefficient_degree_option.key),
-             arguments.surface.coefficient_degree, coefficient_degree_option);
+  GrainSurface& surface = arguments.surface;
+  add_numbers(app, "--semi-axes",
+              {&surface.semi_axes[0], &surface.semi_axes[1], &surface.semi_axes[2]},
+              {semi_axis_option, semi_axis_option, semi_axis_option})
+      ->description("Semi-axes along x, y and z, " + range_text(semi_axis_option) +
+                    "; not of coefficients. Default: 1 1 1")
+      ->type_name("X Y Z");
+  add_numbers(app, "--exponents", {&surface.polar_exponent, &surface.azimuthal_exponent},
+              {polar_exponent_option, azimuthal_exponent_option})
+      ->description("Exponents of the superellipsoid from pole to pole and around the equator, " +
+                    range_text(polar_exponent_option) + ". Default: 1 1")
+      ->type_name("P A");
+  add_number(app, "-d,--degree", surface.coefficient_degree, coefficient_degree_option);
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);
   add_common_arguments(app, arguments.common);
   add_verbose_argument(app, arguments.common.verbose);
-  for (const char* name : {"--threads", "--overwrite", "--quiet", "--verbose"}) {
+  for (const char* name : {"--threads", "--quiet", "--verbose"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;
@@ -89,7 +112,7 @@ int run(const CreateArguments& arguments) {
     check_grain_surface(arguments.surface);
     check_mesh_format(arguments.output, MeshUse::Write);
     check_output_paths({{"the file of the coefficients", arguments.surface.coefficients_file}},
-                       outputs, common.overwrite);
+                       outputs);
     for (const std::string& report : common.reports) check_remesh_report(report);
   });
 

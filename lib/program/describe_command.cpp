@@ -33,7 +33,7 @@ namespace {
 
 void check_files(const DescribeArguments& arguments) {
   check_output_paths({{"the grain", arguments.grain}, {"the reference", arguments.reference}},
-                     named_reports(arguments.common.reports), arguments.common.overwrite);
+                     named_reports(arguments.common.reports));
   if (!arguments.folder.empty()) {
     refuse(mention("output") + " is the folder for the contacts of a volume of labels. Give " +
            mention("report") + " for the report of a mesh.");

@@ -91,7 +91,7 @@ CLI::App& add_command(CLI::App& program, FragmentArguments& arguments) {
   add_file_argument(app, "grain", arguments.grain, mesh_argument_text("Grain", MeshUse::Read))
       ->required();
   add_folder_argument(app, arguments.folder);
-  add_number(app, "-k,--fragments", arguments.options.count, fragment_count_option);
+  add_number(app, "-k,--count", arguments.options.count, fragment_count_option);
   add_file_argument(app, "--sizes", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Its sizes are scaled to the grain. Default: about equal volumes");
@@ -109,7 +109,6 @@ CLI::App& add_command(CLI::App& program, FragmentArguments& arguments) {
   add_number(app, "--density", arguments.density, parts_density_option);
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the fragments");
   add_threads_argument(app, arguments.common.threads);
-  app.add_flag("--overwrite", arguments.common.overwrite, "Allow an output to replace the grain");
   app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
   return app;
 }
@@ -126,11 +125,9 @@ int run(const FragmentArguments& arguments) {
     const FragmentOptions read = options_of(arguments);
     for (int k = 1; k <= read.count; ++k) {
       files.push_back("fragment_" + std::to_string(k) + "." + arguments.format);
-      if (arguments.common.overwrite) continue;
       const std::string path = (folder / files.back()).string();
       if (!same_file(path, arguments.grain)) continue;
-      refuse("\"" + path +
-             "\" is the grain itself. Give another folder, or use --overwrite to replace it.");
+      refuse("\"" + path + "\" is the grain itself. Give another folder.");
     }
     return read;
   });

@@ -36,8 +36,8 @@ bool is_kept_by_batch(const fs::path& path) {
 
 }  // namespace
 
-void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
-                        bool overwrite) {
+void check_output_paths(const std::vector<NamedFile>& inputs,
+                        const std::vector<NamedFile>& outputs) {
   const auto refuse = [](const std::string& sentence) {
     throw wscvt::Error(wscvt::ErrorCode::InvalidInput, sentence);
   };
@@ -50,9 +50,9 @@ void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<
              output.meaning + ". Give two names.");
     }
     for (const NamedFile& input : inputs) {
-      if (overwrite || !wscvt::same_file(output.path, input.path)) continue;
+      if (!wscvt::same_file(output.path, input.path)) continue;
       refuse("\"" + output.path + "\", given for " + output.meaning + ", is " + input.meaning +
-             " itself. Give another name, or use --overwrite to replace it.");
+             " itself. Give another name.");
     }
     if (is_kept_by_batch(output.path)) {
       refuse("\"" + output.path + "\", given for " + output.meaning +

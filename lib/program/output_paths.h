@@ -14,10 +14,9 @@ struct NamedFile {
 };
 
 /// Throws wscvt::Error before any work is done if an output cannot be written, if two outputs are
-/// one file, if an output is an input and `overwrite` is false, or if an output is a table, a page
-/// or the call of a batch.
-void check_output_paths(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs,
-                        bool overwrite);
+/// one file, if an output is an input, or if an output is a table, a page or the call of a batch.
+void check_output_paths(const std::vector<NamedFile>& inputs,
+                        const std::vector<NamedFile>& outputs);
 
 /// A folder for many files, made together with its missing parent folders. At the end, folders that
 /// were made here and are still empty are removed. A refused call therefore leaves nothing behind.

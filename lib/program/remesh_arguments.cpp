@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -44,62 +43,14 @@ constexpr std::string_view of_a_scan[] = {
     max_handle_loop_option.key,
 };
 
-/// Texts given in a call, by the options' keys.
-using Given = std::map<std::string, std::string, std::less<>>;
-
-/// Throws a message that begins with the name of the option.
-[[noreturn]] void refuse_argument(std::string_view key, const std::string& sentence) {
-  throw CLI::ValidationError("--" + std::string(key), sentence);
-}
-
-/// Reads the given texts into options. Reads the method first, see for_each_option.
-class ReadGiven {
- public:
-  explicit ReadGiven(Given given) : given_(std::move(given)) {}
-
-  template <class Number>
-  void operator()(Number& value, const NumberOption<Number>& option) {
-    take(option.key, [&](const std::string& text) { value = from_typed(text, option); });
-  }
-  void operator()(bool& value, const FlagOption& option) {
-    take(option.key, [&](const std::string& text) { value = text == "true"; });
-  }
-  template <class Enumeration>
-  void operator()(Enumeration& value) {
-    constexpr std::string_view key = EnumerationTable<Enumeration>::key;
-    take(key, [&](const std::string& typed) {
-      const std::string text = lower_case(typed);
-      const Sentence refusal = refusal_of_value(key, text, method_);
-      if (!refusal.empty()) refuse(refusal);
-      value = from_key<Enumeration>(text);
-    });
-  }
-  void operator()(Method& value) {
-    take(EnumerationTable<Method>::key,
-         [&](const std::string& text) { value = from_key<Method>(lower_case(text)); });
-    method_ = value;
-  }
-
-  /// Refuses texts that no option has read.
-  void finish() const {
-    for (const auto& [key, text] : given_) refuse_argument(key, refusal_of_option(key, method_));
-  }
-
- private:
-  template <class Read>
-  void take(std::string_view key, const Read& read) {
-    const auto found = given_.find(key);
-    if (found == given_.end()) return;
-    try {
-      read(found->second);
-    } catch (const Error& error) {
-      refuse_argument(key, error.what());
-    }
-    given_.erase(found);
-  }
-
-  Given given_;
-  Method method_ = Method::OnScan;
+/// Options of the remesh on which convex parts are cut.
+constexpr std::string_view of_parts[] = {
+    node_count_option.key,
+    points_option.key,
+    shrink_wrap_option.key,
+    repaired_area_limit_option.key,
+    EnumerationTable<HandleAction>::key,
+    max_handle_loop_option.key,
 };
 
 const Marked* mark_of(std::string_view key) {
@@ -121,7 +72,7 @@ std::string is_true_or_false(const std::string& text) {
 /// Adds an argument for each option, with the help texts of both methods if both have the option.
 class AddArgument {
  public:
-  AddArgument(CLI::App& app, Remeshed remeshed, Given& given)
+  AddArgument(CLI::App& app, Remeshed remeshed, TypedOptions& given)
       : app_(app), remeshed_(remeshed), given_(given) {}
 
   /// Options that follow belong to one method only.
@@ -177,8 +128,11 @@ class AddArgument {
     return help.insert(std::min(help.find('\n'), help.size()), of_method_);
   }
   bool is_wanted(std::string_view key) const {
-    return remeshed_ == Remeshed::Scan ||
-           std::find(std::begin(of_a_scan), std::end(of_a_scan), key) == std::end(of_a_scan);
+    const auto is_in = [&](const auto& keys) {
+      return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+    };
+    return remeshed_ == Remeshed::Parts ? is_in(of_parts)
+                                        : remeshed_ == Remeshed::Scan || !is_in(of_a_scan);
   }
   static std::string group_of(std::string_view key) {
     const Marked* mark = mark_of(key);
@@ -193,14 +147,14 @@ class AddArgument {
 
   CLI::App& app_;
   Remeshed remeshed_;
-  Given& given_;
+  TypedOptions& given_;
   std::string of_method_;
 };
 
 }  // namespace
 
 void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remeshed) {
-  const auto given = std::make_shared<Given>();
+  const auto given = std::make_shared<TypedOptions>();
   AddArgument add(app, remeshed, *given);
   const Method method = method_of(options);
   add(method);
@@ -217,9 +171,9 @@ void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remesh
   add.end_methods();
   for_each_common_option(options, add);
   app.parse_complete_callback([given, &options] {
-    ReadGiven read(*given);
-    for_each_option(options, read);
-    read.finish();
+    read_options(*given, options, [](std::string_view key, const Sentence& refusal) {
+      throw CLI::ValidationError("--" + std::string(key), refusal);
+    });
   });
 }
 

@@ -7,8 +7,9 @@
 
 namespace wscvt::program {
 
-/// Kind of the remeshed surface. Some options have no effect on a surface that is known exactly.
-enum class Remeshed { Scan, Surface };
+/// Use of the remesh. Some options have no effect on a surface that is known exactly. Convex parts
+/// need only the number of nodes and the options of the scan's repair.
+enum class Remeshed { Scan, Surface, Parts };
 
 /// Adds an argument for every option of both methods, under the option's key. Users type options as
 /// reports print them. Parsing changes `options`, which must outlive `app`. Their values before are

@@ -43,7 +43,7 @@ CLI::App& add_command(CLI::App& program, RemeshArguments& arguments) {
   add_file_argument(
       app, "--coefficients", arguments.coefficients,
       "Write the coefficients of the SH series to this file: .json, or .sh (SHTOOLS, 4pi)");
-  for (const char* name : {"--threads", "--overwrite", "--quiet", "--verbose", "--coefficients"}) {
+  for (const char* name : {"--threads", "--quiet", "--verbose", "--coefficients"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;
@@ -86,7 +86,7 @@ int run(const RemeshArguments& arguments) {
     check_mesh_input(arguments.scan);
     check_mesh_format(arguments.output, MeshUse::Write);
     check_coefficients_path(arguments.coefficients);
-    check_output_paths({{"the scan", arguments.scan}}, outputs, common.overwrite);
+    check_output_paths({{"the scan", arguments.scan}}, outputs);
     for (const std::string& report : common.reports) check_remesh_report(report);
   });
   RemeshOptions options = arguments.options;

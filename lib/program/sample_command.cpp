@@ -61,7 +61,7 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
       program,
       {"sample",
        "Compute the statistics of a sample, or compare two samples",
-       {"out --report sample.html", "out supplier.csv --report both.html --size feret-min",
+       {"out --report sample.html", "out supplier.csv --report both.html --diameter feret-min",
         "out --density 2650 --report sample.csv --report sample.json"},
        "SAMPLE is an output folder of wscvt batch, or a table with a column \"grain\" and columns\n"
        "of numbers, named as in shape.csv. The folder of a batch with several numbers of nodes\n"
@@ -71,16 +71,15 @@ CLI::App& add_command(CLI::App& program, SampleArguments& arguments) {
       ->type_name("SAMPLE")
       ->required()
       ->expected(1, 2);
-  add_choice(app, "--size", arguments.options.size);
-  add_choice(app, "--of", arguments.options.of);
+  add_choice(app, "--diameter", arguments.options.size);
+  add_choice(app, "--describe", arguments.options.of);
   add_typed(app, "--density",
             [&arguments](std::string_view text) { arguments.densities = densities_of(text); })
       ->description(
           "Mass / volume, in the units of the table. For two samples, one value for both or two "
           "values such as 2650,2600. Default: the table's column mass or density, else 1")
       ->type_name("N");
-  add_number(app, "--mark", arguments.mark_percent, mark_option);
-  add_number(app, "--repetitions", arguments.options.repetitions, repetitions_option);
+  add_number(app, "--max-error", arguments.mark_percent, mark_option);
   add_typed(app, "--seed",
             [&arguments](std::string_view text) {
               arguments.options.seed = static_cast<std::uint64_t>(from_typed(text, seed_option));
@@ -105,7 +104,7 @@ int run(const SampleArguments& arguments) {
     for (const std::string& path : arguments.samples) {
       if (!fs::is_directory(path)) inputs.push_back({"a table", path});
     }
-    check_output_paths(inputs, named_reports(arguments.reports), false);
+    check_output_paths(inputs, named_reports(arguments.reports));
   });
   CommonArguments common;
   common.threads = arguments.threads;

@@ -72,7 +72,7 @@ int run(const SegmentArguments& arguments) {
       refuse("\"" + page + "\" is no name for a page. Give a name that ends in .html.");
     }
     check_output_paths({{"the scan", arguments.scan}},
-                       {{"the labels", arguments.labels}, {"the page", page}}, false);
+                       {{"the labels", arguments.labels}, {"the page", page}});
     return open_volume(arguments.scan, arguments.choice);
   });
   CommonArguments common;

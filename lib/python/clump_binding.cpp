@@ -72,7 +72,8 @@ py::dict clump_files(const std::vector<std::string>& inputs, const std::filesyst
   options.density = density;
   options.format = format;
   check_job(options);
-  return run_job_on(inputs, make_job(options, output.string(), shard_of(shard)), threads, progress);
+  GrainJob job = make_job(options, output.string(), shard_of(shard));
+  return run_job_on(inputs, job, threads, progress);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Extracted {
   std::vector<Sentence> warnings;
 };
 
-Extracted grains_of(const VolumeOfArray& array, const VolumeOptions& options,
+Extracted grains_of(const VolumeOfArray& array, const VolumeOptions& options, int threads,
                     const Execution& execution) {
   LabelGrains labels([&] { return array.open(); }, array.name, options, execution.part(0.0, 0.3));
   const std::vector<std::size_t>& taken = labels.taken();
@@ -41,16 +41,20 @@ Extracted grains_of(const VolumeOfArray& array, const VolumeOptions& options,
   std::iota(all.begin(), all.end(), std::size_t{0});
   labels.want(all);
   std::vector<ExtractedGrain> made(taken.size());
-  execution.parallel_for(taken.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      try {
-        made[k].grain = labels.read(k, execution);
-      } catch (const Error& error) {
-        if (error.code() == ErrorCode::Cancelled) throw;
-        made[k].failure = error.sentence();
-      }
+  GrainRun run;
+  run.count = taken.size();
+  run.name = [&](std::size_t k) { return std::to_string(labels.labels()[taken[k]].label); };
+  run.work = [&](std::size_t k, const Execution& one) -> GrainRow {
+    try {
+      made[k].grain = labels.read(k, one);
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::Cancelled) throw;
+      made[k].failure = error.sentence();
     }
-  });
+    return {};
+  };
+  const Execution working = execution.part(0.3, 1.0);
+  check_end(run_grains(run, host_of(threads, working)));
   Extracted extracted;
   extracted.warnings = labels.warnings();
   for (std::size_t k = 0; k < taken.size(); ++k) {
@@ -103,7 +107,7 @@ py::dict extract(const py::object& labels, const std::array<double, 3>& voxel_si
   const Extracted extracted = work_on(threads, progress, [&](const Execution& execution) {
     return of_array([&] {
       return conforming ? conforming_of(array, options, walls, execution)
-                        : grains_of(array, options, execution);
+                        : grains_of(array, options, threads, execution);
     });
   });
   for (const Sentence& warning : extracted.warnings) warn(warning);

@@ -5,6 +5,8 @@
 #include <pybind11/stl.h>
 
 #include <cstdint>
+#include <exception>
+#include <mutex>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -91,15 +93,31 @@ py::list grow(const py::list& grains, std::size_t n, int nodes, int donors, int 
     const GrainGrower grower(std::move(sample), grids, options);
     const GrownMeshes meshes(nodes, execution);
     std::vector<Grown> grown(n);
-    constexpr std::size_t block = 64;
-    for (std::size_t first = 0; first < n; first += block) {
-      execution.report(0.2 + 0.8 * static_cast<double>(first) / static_cast<double>(n), "Growing");
-      execution.parallel_for(std::min(block, n - first), 1, [&](std::size_t begin, std::size_t) {
-        auto& [body, nearest] = grown[first + begin];
-        body = grow_body(grower, meshes, first + begin);
+    GrainRun run;
+    run.count = n;
+    run.name = [](std::size_t k) { return std::to_string(k); };
+    std::mutex mutex;
+    std::exception_ptr failure;  // the first ends the run
+    run.work = [&](std::size_t k, const Execution&) -> GrainRow {
+      auto& [body, nearest] = grown[k];
+      try {
+        body = grow_body(grower, meshes, k);
         nearest = search.nearest(body.grain.radial);
-      });
-    }
+      } catch (const Error&) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        failure = std::current_exception();
+      }
+      return {};
+    };
+    const Execution growing = execution.part(0.2, 1.0);
+    JobHost host = host_of(threads, growing);
+    host.is_cancelled = [&] {
+      const std::lock_guard<std::mutex> lock(mutex);
+      return failure != nullptr;
+    };
+    const JobEnd end = run_grains(run, host);
+    if (failure) std::rethrow_exception(failure);
+    check_end(end);
     return grown;
   });
   py::list list;

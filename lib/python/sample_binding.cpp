@@ -93,7 +93,7 @@ void bind_sample(py::module_& module) {
   module.def("read_table", &read_table, py::arg("path"));
   module.def("sample_files", &sample_files, py::arg("path"));
   module.def("sample", &sample, py::arg("samples"), py::arg("reports"), py::kw_only(),
-             py::arg("size") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
+             py::arg("diameter") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
              py::arg("density") = std::vector<double>(), py::arg("mark") = usual_mark_percent,
              py::arg("seed") = defaults.seed, py::arg("repetitions") = defaults.repetitions,
              py::arg("threads") = 0, py::arg("progress") = py::none());

@@ -11,6 +11,7 @@
 
 #include "toolbox/exchange/simulation_options.h"
 #include "toolbox/job/grain_job.h"
+#include "toolbox/volume/label_grains.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 
@@ -45,10 +46,16 @@ auto work_on(int threads, const pybind11::object& progress, const Work& work) {
   }
 }
 
-/// Runs a job on mesh files, folders, patterns and lists. Failed grains become Python warnings.
-/// Returns the numbers of grains and of failures.
-pybind11::dict run_job_on(const std::vector<std::string>& inputs, const GrainJob& job, int threads,
-                          const pybind11::object& progress);
+/// Returns what a run on many grains needs. `execution` must outlive it.
+JobHost host_of(int threads, const Execution& execution);
+
+/// Throws Error(Cancelled) for a run that was cancelled.
+void check_end(const JobEnd& end);
+
+/// Runs a job on mesh files, volumes of labels, folders, patterns and lists. Failed grains become
+/// Python warnings. Sets GrainJob::long_names. Returns the numbers of grains and of failures.
+pybind11::dict run_job_on(const std::vector<std::string>& inputs, GrainJob& job, int threads,
+                          const pybind11::object& progress, const VolumeOptions& volume = {});
 
 /// Returns the frame of files. Throws Error for an unknown name.
 FrameOptions frame_of(const std::string& name, double scale, double size);

@@ -195,7 +195,7 @@ TEST(Clump, AllowedErrorIsMetByFewSpheres) {
   const ClumpResult short_of = make_clump(scan, options, Execution(2));
   EXPECT_EQ(short_of.spheres.size(), 3U);
   ASSERT_EQ(short_of.warnings.size(), 1U);
-  EXPECT_NE(short_of.warnings[0].text().find("--max-spheres"), std::string::npos);
+  EXPECT_NE(short_of.warnings[0].text().find("more spheres"), std::string::npos);
 }
 
 // Each kind of error is met, and clumps with a fifth fewer spheres have more of it.

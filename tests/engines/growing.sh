@@ -14,7 +14,7 @@ k=0
 while [ "$(find scans -type f | wc -l)" -lt 28 ]; do
   k=$((k + 1))
   "$program" create superellipsoid "scans/body_$k.ply" -q -n 300 --semi-axes "1.$((10 + k))" 1 \
-    "0.$((92 - k))" --polar-exponent "0.$((70 + k))"
+    "0.$((92 - k))" --exponents "0.$((70 + k))" 1
 done
 sed -n 's/^    \(\(wscvt\|cd\|yade\) .*\)/\1/p' "$here/../../lib/doc/grow.md" > commands
 grep -q '^yade .* 500$' commands

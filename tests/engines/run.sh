@@ -61,7 +61,7 @@ awk '{ hertz = 4 / 3 / (1 - 0.25 ^ 2) * 0.05 ^ 1.5
 mkdir -p bodies
 for k in 1 2 3 4 5 6 7 8 9; do
   "$program" create superellipsoid "bodies/body_$k.ply" -q -n 300 \
-    --semi-axes "1.$k" 1 "0.$((12 - k))" --polar-exponent "0.$((2 + k))"
+    --semi-axes "1.$k" 1 "0.$((12 - k))" --exponents "0.$((2 + k))" 1
 done
 "$program" grow --templates bodies -o templates -q -k 3 -n 100
 (cd templates && yade -n -x yade_packing.py 12 > yade.log 2>&1) || {

@@ -58,19 +58,19 @@ class Job : public test::FileFolder {
     job.folder = (folder_ / folder).string();
     job.ending = "txt";
     job.call = "the options\n";
-    job.tables = {{"grains", sample_header("number\r\n0\r\n", false)},
+    job.tables = {{"grains", sample_header("number\r\n0\r\n")},
                   {"other", "grain,status,twice\r\n"}};
     job.make = [](GrainAtWork& grain) -> std::vector<std::string> {
       const int number = static_cast<int>(grain.scan.mesh.points.front().x());
       // Later grains are done earlier.
       std::this_thread::sleep_for(std::chrono::microseconds(number % 3 == 0 ? 900 : 10));
       write_file(grain.folders.front().file_of(grain.name), std::to_string(number));
-      return {sample_row(grain.name, "number\r\n" + std::to_string(number) + "\r\n", {}),
+      return {sample_row(grain.name, "number\r\n" + std::to_string(number) + "\r\n"),
               grain.name + ",done," + std::to_string(2 * number) + "\r\n"};
     };
-    job.failed = [](const std::string& grain, const std::string& error,
-                    double) -> std::vector<std::string> {
-      return {failed_row(grain, error, "number\r\n0\r\n", {}), grain + ",failed,\r\n"};
+    job.failed = [](const std::string& grain,
+                    const std::string& error) -> std::vector<std::string> {
+      return {failed_row(grain, error, "number\r\n0\r\n"), grain + ",failed,\r\n"};
     };
     return job;
   }
@@ -242,7 +242,7 @@ TEST_F(Job, LevelsHaveTheirFilesAndTables) {
     for (const JobFolder& folder : grain.folders) {
       const std::string level = fs::path(folder.path()).filename().string();
       write_file(folder.file_of(grain.name), level);
-      records.push_back(sample_row(grain.name, "number\r\n" + level + "\r\n", {}));
+      records.push_back(sample_row(grain.name, "number\r\n" + level + "\r\n"));
       records.push_back(grain.name + ",done," + level + "\r\n");
     }
     return records;

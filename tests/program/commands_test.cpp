@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -170,6 +171,24 @@ TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
     EXPECT_GE(examples, 2);
     EXPECT_EQ(help.output.find("x)\n"), std::string::npos) << "a word of the parser";
   }
+}
+
+// A stranger has to learn all of them.
+TEST_F(Commands, AreFewAndHaveFewOptions) {
+  EXPECT_LE(commands().size(), 11U);
+  std::set<std::string> options;
+  for (const std::string& command : commands()) {
+    for (const std::string& line : lines_of(run(command + " --help-all").output)) {
+      std::smatch found;
+      if (std::regex_search(line, found, std::regex("^  (-[a-z],)?--([a-z-]+)"))) {
+        options.insert(found[2]);
+      }
+    }
+  }
+  options.erase("help");
+  options.erase("help-all");
+  EXPECT_GT(options.size(), 50U);
+  EXPECT_LE(options.size(), 69U);
 }
 
 TEST_F(Commands, EachHasAManualPageOfItsHelp) {
@@ -435,8 +454,7 @@ TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
         .at("scan")
         .get<double>();
   };
-  const double block =
-      volume_of("superellipsoid --semi-axes 1 1 1 --polar-exponent 0.3 --azimuthal-exponent 0.3");
+  const double block = volume_of("superellipsoid --semi-axes 1 1 1 --exponents 0.3 0.3");
   EXPECT_GT(block, 6.0);
   // By Barr's formula, 2 a b c e n B(e / 2 + 1, e) B(n / 2, n / 2) with the exponents e and n.
   const auto exact = [](double polar, double azimuthal) {
@@ -447,8 +465,8 @@ TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {
            beta(0.5 * azimuthal, 0.5 * azimuthal);
   };
   EXPECT_NEAR(block, exact(0.3, 0.3), 2e-3);
-  EXPECT_NEAR(volume_of("superellipsoid --polar-exponent 0.5"), exact(0.5, 1.0), 2e-3);
-  EXPECT_NEAR(volume_of("superellipsoid --azimuthal-exponent 0.5"), exact(1.0, 0.5), 2e-3);
+  EXPECT_NEAR(volume_of("superellipsoid --exponents 0.5 1"), exact(0.5, 1.0), 2e-3);
+  EXPECT_NEAR(volume_of("superellipsoid --exponents 1 0.5"), exact(1.0, 0.5), 2e-3);
   EXPECT_NEAR(volume_of("superellipsoid --semi-axes 2 2 2"), 8.0 * 4.0 / 3.0 * pi, 1e-6);
 }
 
@@ -462,7 +480,7 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
   ASSERT_EQ(run("scan.ply remesh.ply -q -n 60 -d 6 --coefficients series.sh").exit_code, 0);
   EXPECT_EQ(run("hook.ply remesh.ply -q -n 60 --coefficients map.sh").exit_code, 1);
   const auto created = [&](const std::string& file) {
-    EXPECT_EQ(run("create harmonics grain.ply -q -n 150 --coefficients " + file).exit_code, 0);
+    EXPECT_EQ(run("create " + file + " grain.ply -q -n 150").exit_code, 0);
     return describe_shape(read_mesh(path("grain.ply")), Execution(1)).volume;
   };
   EXPECT_NEAR(created("series.sh") / created("series.json"), 1.0, 1e-12);
@@ -470,7 +488,7 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
   for (const auto& [file, volume] :
        {std::make_pair(std::string("series.json"), 4.0 / 3.0 * pi * 0.56),
         std::make_pair(std::string("map.json"), volume_of_hook)}) {
-    const Json report = report_of("create harmonics grain.ply -n 150 --coefficients " + file);
+    const Json report = report_of("create " + file + " grain.ply -n 150");
     EXPECT_EQ(read_mesh(path("grain.ply")).points.size(), 150U);
     EXPECT_NEAR(report.at("descriptors").at("volume").at("scan").get<double>() / volume, 1.0, 0.05);
     EXPECT_EQ(report.at("source"), file.substr(0, file.find('.')));
@@ -479,22 +497,21 @@ TEST_F(Commands, CreateReadsCoefficientsOfSeriesAndMaps) {
     std::ofstream text(folder_ / "text.dat");
     text << "0 0 10.0 0.0\n1 0 0.1 0\n1 1 0 0\n1 -1 0 0\n2 0 0.5 0\n2 1 0 0\n2 2 0 0\n";
   }
-  const Json all = report_of("create harmonics grain.ply -n 60 --coefficients text.dat");
-  const Json cut =
-      report_of("create harmonics grain.ply -n 60 --coefficients text.dat --coefficient-degree 0");
+  const Json all = report_of("create text.dat grain.ply -n 60");
+  const Json cut = report_of("create text.dat grain.ply -n 60 --degree 0");
   EXPECT_NE(all.at("descriptors").at("area"), cut.at("descriptors").at("area"));
 }
 
 TEST_F(Commands, CreateRefusesWhatIsNoSurface) {
   expect_refused("create",
-                 {{"cube grain.ply", 2, "ellipsoid, superellipsoid or harmonics"},
+                 {{"cube grain.ply", 2, "ellipsoid, superellipsoid, or a file"},
                   {"ellipsoid grain.ply --semi-axes 1 0 1", 2, "semi-axis is \"0\""},
                   {"ellipsoid grain.ply --semi-axes 1 1", 2, "--semi-axes"},
-                  {"superellipsoid grain.ply --polar-exponent 3", 2, "from 0.1 to 2"},
+                  {"superellipsoid grain.ply --exponents 3 1", 2, "from 0.1 to 2"},
                   {"ellipsoid grain.ply --points", 2, "--points"},
                   {"harmonics grain.ply", 2, ".dat, .sh or .json"},
-                  {"harmonics grain.ply --coefficients no.json", 1, "no.json"},
-                  {"harmonics grain.ply --coefficients no.txt", 2, ".dat, .sh or .json"},
+                  {"no.json grain.ply", 1, "no.json"},
+                  {"no.txt grain.ply", 2, ".dat, .sh or .json"},
                   {"ellipsoid grain.xyz", 2, ".ply"}},
                  {"grain.ply"});
 }

@@ -40,7 +40,7 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("wscvt remesh a.ply --max-"),
             (Words{"--max-error", "--max-handle-loop", "--max-nodes", "--max-overhang",
                    "--max-repaired-area"}));
-  EXPECT_EQ(completed("wscvt a.ply b.ply --edge"), Words{"--edge-ratio"});
+  EXPECT_EQ(completed("wscvt a.ply b.ply --edge-r"), Words{"--edge-ratio"});
   EXPECT_EQ(completed("wscvt batch --sha"), Words{"--shard"});
   EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());
   Words weightings;

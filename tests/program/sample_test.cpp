@@ -33,8 +33,8 @@ TEST_F(Sample, IsOfABatchsFolderOrATable) {
     write_mesh(test::transformed(test::sphere(2), axes.asDiagonal()),
                path("scans/" + std::to_string(k) + ".ply"));
   }
-  ASSERT_EQ(run("batch scans -o out -q -n 40,30 --contacts").exit_code, 0);
-  const Outcome outcome = run("sample out --report page.html --report all.json --mark 20");
+  ASSERT_EQ(run("batch scans -o out -q -n 40,30 --describe contacts").exit_code, 0);
+  const Outcome outcome = run("sample out --report page.html --report all.json --max-error 20");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   EXPECT_EQ(outcome.output.rfind("out: 3 grains\n", 0), 0U) << outcome.output;
@@ -54,8 +54,9 @@ TEST_F(Sample, IsOfABatchsFolderOrATable) {
   EXPECT_NE(content("all.csv").find("\r\nout,contact_error_mean,%,number,error_percent_90_n40,"),
             std::string::npos);
   // A level is a sample of its own.
-  EXPECT_EQ(run("sample out/n30 -q --report one.csv --of remesh").exit_code, 0);
-  EXPECT_EQ(run("sample out/n30/shape.csv -q --report two.csv --of remesh -t 1").exit_code, 0);
+  EXPECT_EQ(run("sample out/n30 -q --report one.csv --describe remesh").exit_code, 0);
+  EXPECT_EQ(run("sample out/n30/shape.csv -q --report two.csv --describe remesh -t 1").exit_code,
+            0);
   EXPECT_EQ(content("one.csv"), content("two.csv"));
   EXPECT_NE(content("one.csv").find("n30,volume,length^3,mass,mean,"), std::string::npos);
 }
@@ -64,7 +65,7 @@ TEST_F(Sample, TwoAreCompared) {
   write_table("a.csv", 3.0);
   write_table("b.csv", 3.5);
   const Outcome outcome =
-      run("sample a.csv b.csv --size feret-max --repetitions 99 --report c.json --density 2");
+      run("sample a.csv b.csv --diameter feret-max --report c.json --density 2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   const Document all = Document::parse(content("c.json"));
   EXPECT_EQ(all.at("samples").at(1).at("name"), "b.csv");
@@ -75,12 +76,12 @@ TEST_F(Sample, TwoAreCompared) {
   EXPECT_GT(size.at("kolmogorov_smirnov_p").get<double>(), 0.5);
   EXPECT_NEAR(all.at("samples").at(0).at("mass").get<double>(), 2.0 * (78.0 * 78.0 - 9.0), 1e-9);
   // The seed and nothing else decides the last bits.
-  ASSERT_EQ(run("sample a.csv b.csv -q --size feret-max --repetitions 99 --report d.json --density "
+  ASSERT_EQ(run("sample a.csv b.csv -q --diameter feret-max --report d.json --density "
                 "2 --seed 1")
                 .exit_code,
             0);
   EXPECT_EQ(content("d.json"), content("c.json"));
-  run("sample a.csv b.csv -q --size feret-max --repetitions 99 --report d.json --density 2 --seed "
+  run("sample a.csv b.csv -q --diameter feret-max --report d.json --density 2 --seed "
       "7");
   EXPECT_NE(content("d.json"), content("c.json"));
 }
@@ -88,8 +89,7 @@ TEST_F(Sample, TwoAreCompared) {
 TEST_F(Sample, ADensityPerSampleGivesTheMasses) {
   write_table("a.csv", 3.0);
   write_table("b.csv", 3.0);
-  ASSERT_EQ(run("sample a.csv b.csv -q --density 2,5 --repetitions 9 --report c.json").exit_code,
-            0);
+  ASSERT_EQ(run("sample a.csv b.csv -q --density 2,5 --report c.json").exit_code, 0);
   const Document all = Document::parse(content("c.json"));
   const double volume = 78.0 * 78.0 - 9.0;
   EXPECT_NEAR(all.at("samples").at(0).at("mass").get<double>(), 2.0 * volume, 1e-9);
@@ -111,7 +111,7 @@ TEST_F(Sample, RefusesWhatIsNone) {
                   {"a.csv --density 0", 2, "density"},
                   {"a.csv --density 2,3", 2, "one per sample"},
                   {"a.csv a.csv --density 2,x", 2, "density"},
-                  {"a.csv --size feret-min", 1, "feret_min"},
+                  {"a.csv --diameter feret-min", 1, "feret_min"},
                   {"empty", 1, "shape.csv"},
                   {"meshes", 1, "wscvt batch meshes -o"},
                   {"meshes/a.stl", 1, "wscvt batch"},
@@ -125,8 +125,8 @@ TEST_F(Sample, NamesASizeThatAnotherProgramsTableHas) {
   // Volumes of balls of 1, 2 and 3; MorphoLibJ has no box.
   std::ofstream(folder_ / "morpho.csv") << "Label,Volume,SurfaceArea,Sphericity\n1,4.18879,12.6,1\n"
                                            "2,33.5103,50.3,1\n3,113.097,113,1\n";
-  expect_refused("sample", {{"morpho.csv", 1, "--size equivalent-diameter"}}, {});
-  const Outcome outcome = run("sample morpho.csv --size equivalent-diameter");
+  expect_refused("sample", {{"morpho.csv", 1, "--diameter equivalent-diameter"}}, {});
+  const Outcome outcome = run("sample morpho.csv --diameter equivalent-diameter");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("Sizes are from the column \"volume\""), std::string::npos)
       << outcome.output << outcome.errors;

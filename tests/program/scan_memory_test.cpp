@@ -24,7 +24,7 @@ TEST_F(ScanMemory, OfARemeshIsLessThanFourAndAHalfMeshes) {
     // By a small process: what a child has of ours until it becomes the program counts as its own.
     const std::string command = "cd '" + folder_.string() +
                                 "' && /usr/bin/time -f %M -o peak.txt '" WSCVT_PROGRAM
-                                "' remesh scan.ply out.ply --overwrite -q -t 1 -n 100";
+                                "' remesh scan.ply out.ply -q -t 1 -n 100";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return 1024.0 * std::stod(content("peak.txt"));
   };

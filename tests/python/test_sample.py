@@ -96,4 +96,4 @@ def test_what_is_no_sample_is_refused():
     with pytest.raises(wscvt.Error, match="axis_i_box"):
         wscvt.sample({"volume": [1.0, 2.0]})
     with pytest.raises(wscvt.Error, match="size"):
-        wscvt.sample({"axis_i_box": [1.0, 2.0]}, size="weight")
+        wscvt.sample({"axis_i_box": [1.0, 2.0]}, diameter="weight")

@@ -455,6 +455,25 @@ def test_a_batch_is_its_grains_in_order_and_errors_are_results(scan, tmp_path):
         list(wscvt.batch([small], nodse=60))
 
 
+def test_a_batch_of_a_volume_is_that_of_the_program(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    z, y, x = np.indices((24, 24, 40)) + 0.5
+    for name, radius in (("a", 7), ("b", 8)):
+        volume = np.zeros((24, 24, 40), np.uint16)
+        volume[(x - 10) ** 2 + (y - 12) ** 2 + (z - 12) ** 2 < radius ** 2] = 3
+        volume[(x - 29) ** 2 + (y - 12) ** 2 + (z - 12) ** 2 < radius ** 2] = 4
+        np.save(f"{name}.npy", volume)
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "batch", "a.npy", "b.npy", "-o", "program", "-q", "-n", "60",
+                    "--voxel-size", "0.5", "--smoothing", "10"], check=True)
+    counts = wscvt.batch(["a.npy", "b.npy"], 60, output="python", voxel_size=0.5, smoothing=10)
+    assert counts == {"grains": 4, "failed": 0}
+    names = sorted(path.name for path in pathlib.Path("program").iterdir())
+    assert "a-3.ply" in names and "b-4.ply" in names and "labels.csv" in names
+    assert sorted(path.name for path in pathlib.Path("python").iterdir()) == names
+    for name in names:
+        assert pathlib.Path("python", name).read_bytes() == pathlib.Path("program", name).read_bytes(), name
+
+
 def test_a_batch_into_a_folder_is_that_of_the_program(scan, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     small = wscvt.remesh(*scan, nodes=300)

@@ -46,33 +46,28 @@ RemeshResult grain_of(double radius, const std::vector<Sentence>& warnings = {})
 }
 
 TEST(SampleTable, RowsHaveTheColumnsOfTheHeader) {
-  for (const Seconds seconds : {Seconds(), Seconds(0.25)}) {
-    const std::string table = sample_header(seconds.has_value()) +
-                              sample_row("a.ply", grain_of(2.0, {"Odd.", "Odder."}), seconds) +
-                              failed_row("b, c.ply", "It is \"broken\".", seconds);
-    const auto records = test::csv_records(table);
-    ASSERT_EQ(records.size(), 3U);
-    EXPECT_EQ(records[1].size(), records[0].size());
-    EXPECT_EQ(records[2].size(), records[0].size());
-    EXPECT_EQ(records[1][0], "a.ply");
-    EXPECT_EQ(records[1][1], "done");
-    EXPECT_EQ(records[1].back(), "Odd. Odder.");
-    EXPECT_EQ(records[2][0], "b, c.ply");
-    EXPECT_EQ(records[2][1], "failed");
-    EXPECT_EQ(records[2][2], "It is \"broken\".");
-    EXPECT_EQ(records[2].back(), "");
-    if (seconds) {
-      EXPECT_EQ(records[1][3], "0.25");
-    }
-  }
+  const std::string table = sample_header() +
+                            sample_row("a.ply", grain_of(2.0, {"Odd.", "Odder."})) +
+                            failed_row("b, c.ply", "It is \"broken\".");
+  const auto records = test::csv_records(table);
+  ASSERT_EQ(records.size(), 3U);
+  EXPECT_EQ(records[1].size(), records[0].size());
+  EXPECT_EQ(records[2].size(), records[0].size());
+  EXPECT_EQ(records[1][0], "a.ply");
+  EXPECT_EQ(records[1][1], "done");
+  EXPECT_EQ(records[1].back(), "Odd. Odder.");
+  EXPECT_EQ(records[2][0], "b, c.ply");
+  EXPECT_EQ(records[2][1], "failed");
+  EXPECT_EQ(records[2][2], "It is \"broken\".");
+  EXPECT_EQ(records[2].back(), "");
 }
 
 TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   for (const double radius : {4.0, 1.0, 3.0, 2.0}) {
-    table += sample_row("grain", grain_of(radius), {});
+    table += sample_row("grain", grain_of(radius));
   }
-  table += sample_row("warned", grain_of(10.0, {"Odd."}), {}) + failed_row("bad", "Broken.", {});
+  table += sample_row("warned", grain_of(10.0, {"Odd."})) + failed_row("bad", "Broken.");
   write(table);
   const SampleSummary summary = summarise_table(path_);
   EXPECT_EQ(summary.grains, 6U);
@@ -103,9 +98,9 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
 }
 
 TEST_F(SampleSummaryOfAFile, NamesTheGrainsWithWarningsThatFitOnALine) {
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   for (int k = 0; k < 250; ++k) {
-    table += sample_row("grain_" + std::to_string(k), grain_of(1.0, {"Odd."}), {});
+    table += sample_row("grain_" + std::to_string(k), grain_of(1.0, {"Odd."}));
   }
   write(table);
   const std::string line = summary_lines(summarise_table(path_)).at(1);
@@ -134,7 +129,7 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
   result.quality.edge_ratio = {1.5, 2.5, 3.5, 4.5};
   result.quality.smallest_angle = 33.0;
   result.quality.mean_smallest_angle = 44.0;
-  write(sample_header(false) + sample_row("a", result, {}));
+  write(sample_header() + sample_row("a", result));
   const auto all =
       nlohmann::ordered_json::parse(summary_json(summarise_table(path_))).at("distributions");
   const std::map<std::string, double> expected = {
@@ -146,9 +141,9 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
     EXPECT_NEAR(all.at(key).at("median").get<double>(), value, 1e-12) << key;
   }
   // And each of its numbers in its own place: 0, 1, ..., 9 and 100.
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   for (const double radius : {100.0, 9.0, 1.0, 8.0, 2.0, 7.0, 3.0, 6.0, 4.0, 5.0, 0.5}) {
-    table += sample_row("a", grain_of(radius), {});
+    table += sample_row("a", grain_of(radius));
   }
   write(table);
   const SampleSummary summary = summarise_table(path_);
@@ -182,9 +177,8 @@ TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
 }
 
 TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
-  std::string table = sample_header(false);
-  for (std::size_t k = 0; k < most_failures_named + 7; ++k)
-    table += failed_row("bad", "Broken.", {});
+  std::string table = sample_header();
+  for (std::size_t k = 0; k < most_failures_named + 7; ++k) table += failed_row("bad", "Broken.");
   write(table);
   const SampleSummary summary = summarise_table(path_);
   EXPECT_EQ(summary.failed, most_failures_named + 7);
@@ -198,23 +192,23 @@ TEST_F(SampleSummaryOfAFile, ThePageHasTheOptionsOfAllGrains) {
   std::get<OnScanOptions>(first.options.method).edge_ratio = 1.25;
   RemeshResult second = first;
   second.options.node_count = 322;
-  write(sample_header(false) + failed_row("bad", "Broken.", {}) + sample_row("a", first, {}) +
-        sample_row("b", first, {}));
+  write(sample_header() + failed_row("bad", "Broken.") + sample_row("a", first) +
+        sample_row("b", first));
   std::string page = summary_html(summarise_table(path_));
   EXPECT_NE(page.find(", nodes 321,"), std::string::npos);
   EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
-  write(sample_header(false) + sample_row("a", first, {}) + sample_row("b", second, {}));
+  write(sample_header() + sample_row("a", first) + sample_row("b", second));
   page = summary_html(summarise_table(path_));
   EXPECT_NE(page.find(", nodes several,"), std::string::npos);
   EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
 }
 
 TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   for (int k = 0; k < 150; ++k) {
     RemeshResult result = grain_of(1.0);
     result.rms_distance = 0.001 * ((k * 37) % 150 + 1);
-    table += sample_row("folder/grain" + std::to_string(k) + ".ply", result, {});
+    table += sample_row("folder/grain" + std::to_string(k) + ".ply", result);
   }
   write(table);
   const SampleSummary summary = summarise_table(path_);
@@ -241,13 +235,13 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
 }
 
 TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   double radius = 0.0;
   for (const double volume : {3.0, 3.0 + 1e-15, 3.0 - 2e-15}) {
     RemeshResult result = grain_of(radius += 1.0);
     result.scan.volume = 3.0;
     result.remesh.volume = volume;
-    table += sample_row("grain", result, {});
+    table += sample_row("grain", result);
   }
   write(table);
   const std::string page = summary_html(summarise_table(path_));
@@ -256,9 +250,8 @@ TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
 }
 
 TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {
-  for (const std::string& text :
-       {std::string(), std::string("a,b\r\n1,2\r\n"), sample_header(false) + "a,done\r\n",
-        sample_header(false) + "a,done"}) {
+  for (const std::string& text : {std::string(), std::string("a,b\r\n1,2\r\n"),
+                                  sample_header() + "a,done\r\n", sample_header() + "a,done"}) {
     write(text);
     EXPECT_ERROR(summarise_table(path_), InvalidInput);
   }
@@ -267,15 +260,15 @@ TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {
 }
 
 TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
-  std::string table = sample_header(false);
+  std::string table = sample_header();
   Eigen::VectorXd radii(13);
   for (Eigen::Index k = 0; k < 13; ++k) {
     radii[k] = 1.0 + 0.37 * static_cast<double>((k * 5) % 13);
     RemeshResult result = grain_of(radii[k]);
     result.scan.volume = 3.0 * radii[k];
-    table += sample_row("grain" + std::to_string(k), result, {});
+    table += sample_row("grain" + std::to_string(k), result);
   }
-  table += failed_row("bad <one>", "Broken & gone.", {});
+  table += failed_row("bad <one>", "Broken & gone.");
   write(table);
   const SampleSummary summary = summarise_table(path_);
   const std::string page = summary_html(summary);

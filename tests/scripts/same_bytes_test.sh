@@ -52,7 +52,7 @@ make_all() {  # folder
   done
   wscvt grow 150 200 -o grown -q -k 4 -n 100 --degree 8
   wscvt sample 150 -q --report sample.json
-  wscvt create superellipsoid rod.stl --semi-axes 3 1 0.5 --polar-exponent 0.7 -q -n 200
+  wscvt create superellipsoid rod.stl --semi-axes 3 1 0.5 --exponents 0.7 1 -q -n 200
   cp "$work/scan.tif" .
   if [ "$segments" = yes ]; then
     wscvt segment scan.tif labels.nrrd -q

@@ -128,20 +128,23 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
 
     output: folder of the meshes, grains.csv, shape.csv and the summary, with the bytes of "wscvt
         batch". After an interruption, the same call continues.
-    scans: then one or more files, folders, patterns, or "@FILE" with one of these per line. For
-        volumes use the program.
+    scans: then one or more files, folders, patterns, volumes of labels,
+        or "@FILE" with one of these per line.
     nodes: then one number, or a list of numbers, each with a folder of its own.
     shard: "I/N" takes part I of N of the grains, by their names.
     format: ending of the meshes, "ply" by default.
-    describe: "both" (default), "scan", "remesh" or "none": the columns of shape.csv.
-    contacts: measure errors of first contact. Off by default.
-    seconds: a column with the run time of each grain. Off by default.
+    describe: "both" (default), "scan", "remesh" or "none": the columns of shape.csv; "contacts"
+        also measures the errors of first contact.
     frame: of the meshes and of the files below: "input" (default), "centred" or "principal".
     size: equivalent diameter of each grain in these files. scale: factor of all lengths.
     node_table: endings of files of nodes in output/node-table: "csv", "vtp", "shp".
     sdf: endings of files of signed distances in output/sdf: "npy", "vti", "json".
     sdf_surface: "scan" (default) or "remesh".
     sdf_spacing: length between the grid's points; 0, the default, chooses one.
+    voxel_size: length, or three along x, y and z. The default is the one of the file.
+    smallest, smoothing, background, at_border: of a volume, as for extract.
+    parts: each part of a label, and each body of a mesh, is a grain.
+    separate: separate grains of a mask that touch: the widest neck between two, such as 0.85.
     progress: as for remesh.
 
     Returns a dictionary with the numbers of "grains" and of those that "failed", which also are
@@ -153,6 +156,8 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
             nodes = options["levels"][-1]
         if nodes is not None:
             options["nodes"] = nodes
+        if isinstance(options.get("voxel_size"), numbers.Real):
+            options["voxel_size"] = (options["voxel_size"],) * 3
         return _wscvt._batch(_inputs(scans), output, threads=threads, **options)
     return _batch(scans, nodes, threads, options)
 
@@ -421,7 +426,7 @@ def sample(table, other=None, *, report=(), density=None, **options):
         numbers of nodes also gives "levels", the errors against the number of nodes.
     other: a second sample to compare with.
     report: path or paths of reports to write, ending in .html, .json or .csv.
-    size: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
+    diameter: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
     of: "scan" or "remesh".
     density: mass / volume, or a pair for two samples. By default the table's column "mass" or
         "density", else 1.

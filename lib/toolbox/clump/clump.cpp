@@ -171,10 +171,9 @@ void add_warnings(ClumpResult& result) {
   const std::string count =
       std::to_string(result.spheres.size()) + (result.spheres.size() == 1 ? " sphere" : " spheres");
   if (options.max_error_percent > 0.0 && error > options.max_error_percent) {
-    result.warnings.push_back("With " + count + " the " + name + format_number(error, 3) +
-                              " %, more than the allowed " +
-                              format_typed(options.max_error_percent) + " %. Give a larger " +
-                              mention("max-spheres") + ", or allow a larger error.");
+    result.warnings.push_back(
+        "With " + count + " the " + name + format_number(error, 3) + " %, more than the allowed " +
+        format_typed(options.max_error_percent) + " %. Allow more spheres, or a larger error.");
   } else if (options.max_error_percent == 0.0 &&
              result.spheres.size() < static_cast<std::size_t>(options.sphere_count)) {
     result.warnings.push_back("Only " + count + " of the smallest radius fit inside.");

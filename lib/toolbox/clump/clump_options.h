@@ -48,7 +48,7 @@ struct ClumpOptions {
   double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
 };
 
-inline constexpr NumberOption<int> sphere_count_option = {"spheres",  "number of spheres", 1, 1000,
+inline constexpr NumberOption<int> sphere_count_option = {"spheres",    "number of spheres", 1, 1000,
                                                           Ends::Both, "of the clump"};
 inline constexpr NumberOption<double> clump_error_option = {
     "max-error",
@@ -57,12 +57,8 @@ inline constexpr NumberOption<double> clump_error_option = {
     100.0,
     Ends::NotMaximum,
     "use the fewest spheres with at most this error, in %; 0: use the given number of spheres"};
-inline constexpr NumberOption<int> most_spheres_option = {"max-spheres",
-                                                          "max. number of spheres",
-                                                          1,
-                                                          1000,
-                                                          Ends::Both,
-                                                          "in the search for the allowed error"};
+inline constexpr NumberOption<int> most_spheres_option = {
+    "max-spheres", "max. number of spheres", 1, 1000, Ends::Both, "in the search for the allowed error"};
 inline constexpr NumberOption<double> smallest_radius_option = {
     "smallest-radius", "smallest radius of a sphere",  0.0, 100.0,
     Ends::Both,        "in % of the equivalent radius"};
@@ -83,7 +79,6 @@ void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.sphere_count, sphere_count_option);
   visitor(options.max_error_percent, clump_error_option);
   visitor(options.error_measure);
-  visitor(options.most_spheres, most_spheres_option);
   visitor(options.smallest_radius_percent, smallest_radius_option);
   visitor(options.inside, inside_option);
   visitor(options.compared_nodes, compared_nodes_option);

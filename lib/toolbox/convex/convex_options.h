@@ -16,12 +16,12 @@ struct ConvexOptions {
 inline constexpr int convex_node_count = 500;
 
 inline constexpr NumberOption<int> convex_parts_option = {
-    "parts", "number of parts", 1, 1000, Ends::Both, "at most this many convex parts"};
+    "count", "number of parts", 1, 1000, Ends::Both, "at most this many convex parts"};
 inline constexpr NumberOption<int> convex_faces_option = {
     "faces", "number of faces", 4, 100000, Ends::Both, "at most this many triangles per part"};
 inline constexpr NumberOption<double> convex_tolerance_option = {
-    "hull-distance",
-    "max. distance of a hull that is not cut",
+    "max-error",
+    "allowed error",
     0.01,
     50.0,
     Ends::Both,

@@ -23,7 +23,7 @@ struct FragmentOptions {
 };
 
 inline constexpr NumberOption<int> fragment_count_option = {
-    "fragments", "number of fragments", 1, 1000, Ends::Both, "exactly this many"};
+    "count", "number of fragments", 1, 1000, Ends::Both, "exactly this many"};
 
 /// Throws Error(InvalidInput) for options out of range or in conflict.
 void check_options(const FragmentOptions& options);

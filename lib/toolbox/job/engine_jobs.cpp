@@ -31,10 +31,10 @@ std::string call_text(const char* format, const char* files, const Job& job, Jso
 /// Returns a job whose table has the columns of a report, given as CSV.
 GrainJob reported_job(const std::string& report) {
   GrainJob job;
-  job.tables = {{"grains", sample_header(report, false)}};
-  job.failed = [report](const std::string& grain, const std::string& error,
-                        double) -> std::vector<std::string> {
-    return {failed_row(grain, error, report, {})};
+  job.tables = {{"grains", sample_header(report)}};
+  job.failed = [report](const std::string& grain,
+                        const std::string& error) -> std::vector<std::string> {
+    return {failed_row(grain, error, report)};
   };
   return job;
 }
@@ -71,7 +71,7 @@ GrainJob make_job(const ClumpJob& options, const std::string& folder, const Shar
     ClumpResult clump = make_clump(std::move(grain.scan.mesh), options.clump, grain.execution);
     add_warnings(grain.scan, clump);
     write_clump(grain.folders.front().file_of(grain.name), clump, options.frame, options.density);
-    return {sample_row(grain.name, clump_csv(clump, {grain.name, ""}), {})};
+    return {sample_row(grain.name, clump_csv(clump, {grain.name, ""}))};
   };
   return job;
 }
@@ -83,9 +83,9 @@ GrainJob make_job(const ConvexJob& options, const std::string& folder, const Sha
   job.ending = options.format;
   job.call = call_text("wscvt-convex", "parts", options,
                        {{"convex",
-                         {{"parts", options.convex.parts},
+                         {{"count", options.convex.parts},
                           {"faces", options.convex.faces},
-                          {"hull-distance", options.convex.tolerance}}},
+                          {"max-error", options.convex.tolerance}}},
                         {"options", json_of(options.remesh)}});
   job.make = [options](GrainAtWork& grain) -> std::vector<std::string> {
     PartsResult parts =
@@ -94,7 +94,7 @@ GrainJob make_job(const ConvexJob& options, const std::string& folder, const Sha
     const Sentence warning = write_parts(grain.folders.front().file_of(grain.name), parts,
                                          options.frame, options.density);
     if (!warning.empty()) parts.warnings.push_back(warning);
-    return {sample_row(grain.name, parts_csv(parts, {grain.name, ""}), {})};
+    return {sample_row(grain.name, parts_csv(parts, {grain.name, ""}))};
   };
   return job;
 }

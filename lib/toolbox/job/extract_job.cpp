@@ -188,8 +188,8 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
     return {grain.scan.record(place.name_of(grain.name))};
   };
   const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
-  job.failed = [columns](const std::string& grain, const std::string& error,
-                         double) -> std::vector<std::string> {
+  job.failed = [columns](const std::string& grain,
+                         const std::string& error) -> std::vector<std::string> {
     std::vector<std::string> fields = {grain, "", "", "failed", error};
     fields.resize(columns);
     return {csv_record(fields)};

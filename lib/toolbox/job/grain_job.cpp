@@ -24,7 +24,6 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
 /// Returns the name of a file without folders and endings.
 std::string stem_of(const std::string& file) {
@@ -247,20 +246,17 @@ void remove_parts(const GrainJob& job, const std::vector<JobFolder>& folders,
 
 GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, GrainSource& grains,
                 std::size_t k, const Execution& execution) {
-  const Clock::time_point begin = Clock::now();
   const std::string name = grains.name(k);
   return row_or_failure(
       [&]() -> GrainRow {
-        GrainAtWork grain{name, grains.read(k, job.reads_pictures, execution), folders, execution,
-                          begin};
+        GrainAtWork grain{name, grains.read(k, job.reads_pictures, execution), folders, execution};
         if (!grain.scan.refused.empty() && !job.takes_refused) refuse(grain.scan.refused);
         return {job.make(grain)};
       },
       [&](const std::string& error) {
         GrainRow row{{}, error};
-        const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
         for (std::size_t level = 0; level < folders.size(); ++level) {
-          for (std::string& record : job.failed(name, error, seconds)) {
+          for (std::string& record : job.failed(name, error)) {
             row.records.push_back(std::move(record));
           }
         }
@@ -297,10 +293,6 @@ std::string JobFolder::file_of(const std::string& grain) const {
 
 std::string JobFolder::file(const std::string& name, const std::string& ending) const {
   return (folder_ / (name + part_ + ending)).string();
-}
-
-double GrainAtWork::seconds() const {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 std::vector<JobFolder> folders_of(const GrainJob& job) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -54,10 +53,6 @@ struct GrainAtWork {
   GrainScan scan;
   const std::vector<JobFolder>& folders;  ///< one per level
   const Execution& execution;             ///< of one thread
-  std::chrono::steady_clock::time_point begin;
-
-  /// Returns the time since the grain was begun.
-  double seconds() const;
 };
 
 /// A table with a row per grain, see sample_table.h.
@@ -90,9 +85,8 @@ struct GrainJob {
   /// Writes the files of a grain and returns its records: of each level, each table. Called on
   /// several threads at once. What it throws is the failure of the grain, see row_or_failure.
   std::function<std::vector<std::string>(GrainAtWork& grain)> make;
-  /// Returns the records of a grain that failed after `seconds`, for one level.
-  std::function<std::vector<std::string>(const std::string& grain, const std::string& error,
-                                         double seconds)>
+  /// Returns the records of a grain that failed, for one level.
+  std::function<std::vector<std::string>(const std::string& grain, const std::string& error)>
       failed;
 };
 

@@ -221,8 +221,7 @@ GrainJob job_of(const GrowJob& options, const Growing& growing) {
   job.make = [&growing](GrainAtWork& grain) -> std::vector<std::string> {
     return {grown_record(growing, grain)};
   };
-  job.failed = [](const std::string& grain, const std::string& error,
-                  double) -> std::vector<std::string> {
+  job.failed = [](const std::string& grain, const std::string& error) -> std::vector<std::string> {
     throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
   };
   return job;

@@ -36,7 +36,6 @@ std::string call_text(const RemeshJob& job) {
   Json call = {{"format", "wscvt-batch"},
                {"made_by", made_by()},
                {"meshes", job.format},
-               {"seconds", job.seconds},
                {"levels", job.levels},
                {"describe", key_of(job.shapes.described)},
                {"contacts", job.shapes.contacts},
@@ -142,8 +141,7 @@ class GrainRemesh {
       // Only the first result has it.
       if (level > 0) result.repaired_scan = std::move(results[level - 1].repaired_scan);
       write_files(result, folder);
-      records.push_back(
-          sample_row(grain_.name, result, job_.seconds ? Seconds(grain_.seconds()) : Seconds()));
+      records.push_back(sample_row(grain_.name, result));
       const std::string file = folder.name_of(grain_.name);
       if (describes) {
         records.push_back(error.empty() ? shape_row(grain_.name, file, result, shape)
@@ -152,7 +150,7 @@ class GrainRemesh {
       if (is_for_simulation(job_)) {
         const MassProperties mass = in_frame(mass_properties(result.scan),
                                              simulation_frame(result.scan, job_.simulation.frame));
-        records.push_back(sample_row(grain_.name, mass_csv(file, mass), {}));
+        records.push_back(sample_row(grain_.name, mass_csv(file, mass)));
       }
     }
     return records;
@@ -212,11 +210,6 @@ void check_job(const RemeshJob& job) {
   if (!job.levels.empty() && job.remesh.target.percent > 0.0) {
     refuse(mention("max-error") + " needs a single number of nodes. Leave it out.");
   }
-  if (job.shapes.contacts && job.shapes.described == Described::None) {
-    refuse(mention("contacts") + " adds columns to shape.csv, but " + mention("describe", "none") +
-           " does not write this file. Use " + mention("describe", "remesh") + ", or leave out " +
-           mention("contacts") + ".");
-  }
   check_format(job.format);
   check_simulation_options(job.simulation);
   for (const std::string& ending : job.node_tables) {
@@ -244,18 +237,17 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
   }
   for (const int nodes : options.levels) job.levels.push_back("n" + std::to_string(nodes));
   job.call = call_text(options);
-  job.tables = {{"grains", sample_header(options.seconds)}};
+  job.tables = {{"grains", sample_header()}};
   if (describes) job.tables.push_back({"shape", shape_header(options.shapes)});
   const std::string no_mass = mass_csv("", {});
-  if (has_masses) job.tables.push_back({"mass", sample_header(no_mass, false)});
+  if (has_masses) job.tables.push_back({"mass", sample_header(no_mass)});
   job.has_census = true;
   job.reads_pictures = holds_attributes("mesh." + options.format);
   job.make = [shared](GrainAtWork& grain) { return GrainRemesh(*shared, grain).records(); };
-  job.failed = [=](const std::string& grain, const std::string& error, double seconds) {
-    std::vector<std::string> records = {
-        failed_row(grain, error, shared->seconds ? Seconds(seconds) : Seconds())};
+  job.failed = [=](const std::string& grain, const std::string& error) {
+    std::vector<std::string> records = {failed_row(grain, error)};
     if (describes) records.push_back(failed_shape_row(grain, error, shared->shapes));
-    if (has_masses) records.push_back(failed_row(grain, error, no_mass, {}));
+    if (has_masses) records.push_back(failed_row(grain, error, no_mass));
     return records;
   };
   return job;

@@ -21,7 +21,6 @@ struct RemeshJob {
   std::vector<int> levels;
   ShapeMeasures shapes;        ///< of shape.csv
   std::string format = "ply";  ///< ending of the meshes
-  bool seconds = false;        ///< grains.csv has a column with the run time of each grain
   /// Of inputs that are volumes. choice.voxel_size, if it is a cube, is also that of the scans that
   /// are meshes.
   VolumeOptions volume;

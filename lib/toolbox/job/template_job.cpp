@@ -162,8 +162,7 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
     return {
         template_row(sample, templates, grain.scan.place, grain.name, folder.name_of(grain.name))};
   };
-  job.failed = [](const std::string& grain, const std::string& error,
-                  double) -> std::vector<std::string> {
+  job.failed = [](const std::string& grain, const std::string& error) -> std::vector<std::string> {
     throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
   };
   return job;

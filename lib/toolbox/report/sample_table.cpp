@@ -44,13 +44,6 @@ std::pair<std::string, std::string> halves(const std::string& csv) {
   return {csv.substr(0, row), csv.substr(row)};
 }
 
-std::vector<std::string> first_fields(const std::string& grain, const char* status,
-                                      const std::string& error, Seconds seconds) {
-  std::vector<std::string> fields = {grain, status, error};
-  if (seconds) fields.push_back(format_exact(*seconds));
-  return fields;
-}
-
 std::ifstream open(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) {
@@ -67,34 +60,30 @@ const std::string& writable(const std::string& path) {
 
 }  // namespace
 
-std::string sample_header(const std::string& report, bool with_seconds) {
-  std::vector<std::string> names = {"grain", "status", "error", "seconds"};
-  if (!with_seconds) names.pop_back();
-  return before(names, halves(report).first);
+std::string sample_header(const std::string& report) {
+  return before({"grain", "status", "error"}, halves(report).first);
 }
 
-std::string sample_row(const std::string& grain, const std::string& report, Seconds seconds) {
-  return before(first_fields(grain, done, "", seconds), halves(report).second);
+std::string sample_row(const std::string& grain, const std::string& report) {
+  return before({grain, done, ""}, halves(report).second);
 }
 
 std::string failed_row(const std::string& grain, const std::string& error,
-                       const std::string& report, Seconds seconds) {
+                       const std::string& report) {
   const std::string header = halves(report).first;
   const auto columns = std::count(header.begin(), header.end(), ',');
-  return before(first_fields(grain, failed, error, seconds),
+  return before({grain, failed, error},
                 std::string(static_cast<std::size_t>(columns), ',') + "\r\n");
 }
 
-std::string sample_header(bool with_seconds) {
-  return sample_header(report_csv(RemeshResult()), with_seconds);
+std::string sample_header() { return sample_header(report_csv(RemeshResult())); }
+
+std::string sample_row(const std::string& grain, const RemeshResult& result) {
+  return sample_row(grain, report_csv(result, {grain, ""}));
 }
 
-std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds) {
-  return sample_row(grain, report_csv(result, {grain, ""}), seconds);
-}
-
-std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds) {
-  return failed_row(grain, error, report_csv(RemeshResult()), seconds);
+std::string failed_row(const std::string& grain, const std::string& error) {
+  return failed_row(grain, error, report_csv(RemeshResult()));
 }
 
 std::string failure_in(const std::string& record) {

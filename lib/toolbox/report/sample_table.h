@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,27 +11,24 @@
 namespace wscvt {
 
 // The table of a sample: CSV (RFC 4180) with one row per grain. Its columns are "grain", the name
-// of the scan's file; "status", "done" or "failed"; "error", the message of a failure; "seconds" on
-// request; then the columns of report_csv, empty if the grain failed.
-
-/// Time of a grain; empty if the table has no such column.
-using Seconds = std::optional<double>;
+// of the scan's file; "status", "done" or "failed"; "error", the message of a failure; then the
+// columns of report_csv, empty if the grain failed.
 
 /// Returns the first record.
-std::string sample_header(bool with_seconds);
+std::string sample_header();
 
 /// Returns the record of a remeshed grain.
-std::string sample_row(const std::string& grain, const RemeshResult& result, Seconds seconds);
+std::string sample_row(const std::string& grain, const RemeshResult& result);
 
 /// Returns the record of a failed grain.
-std::string failed_row(const std::string& grain, const std::string& error, Seconds seconds);
+std::string failed_row(const std::string& grain, const std::string& error);
 
 /// These return the records for another report, given as CSV with a header and a row. The first and
 /// the last use only its header.
-std::string sample_header(const std::string& report, bool with_seconds);
-std::string sample_row(const std::string& grain, const std::string& report, Seconds seconds);
+std::string sample_header(const std::string& report);
+std::string sample_row(const std::string& grain, const std::string& report);
 std::string failed_row(const std::string& grain, const std::string& error,
-                       const std::string& report, Seconds seconds);
+                       const std::string& report);
 
 /// Returns the message of a failed grain in its record; empty if it did not fail. Also of a table
 /// of labels (label_table.h), whose fourth column is the state of the label and whose fifth is the

@@ -13,7 +13,7 @@
 namespace wscvt {
 
 /// The meshes of a grain whose shape is measured.
-enum class Described { Both, Scan, Remesh, None };
+enum class Described { Both, Scan, Remesh, None, Contacts };
 
 template <>
 struct EnumerationTable<Described> {
@@ -24,14 +24,17 @@ struct EnumerationTable<Described> {
       {Described::Scan, "scan", "scan", "all descriptors of the scan"},
       {Described::Remesh, "remesh", "remesh", "all descriptors of the remesh"},
       {Described::None, "none", "none", "no table of shapes; saves time"},
+      {Described::Contacts, "contacts", "first contact",
+       "as both, and the error of first contact: two remeshes against two scans, over random pairs "
+       "of poses"},
   };
 };
 
 inline bool describes_scan(Described what) {
-  return what == Described::Both || what == Described::Scan;
+  return what == Described::Both || what == Described::Scan || what == Described::Contacts;
 }
 inline bool describes_remesh(Described what) {
-  return what == Described::Both || what == Described::Remesh;
+  return what == Described::Both || what == Described::Remesh || what == Described::Contacts;
 }
 
 /// The measures of a table of shapes, which decide its columns.

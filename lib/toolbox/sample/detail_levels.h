@@ -36,7 +36,7 @@ struct DetailLevels {
 
 inline constexpr double usual_mark_percent = 1.0;
 inline constexpr NumberOption<double> mark_option = {
-    "mark",
+    "max-error",
     "marked error",
     0.0,
     100.0,

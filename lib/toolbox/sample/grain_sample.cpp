@@ -109,7 +109,7 @@ std::string sizes_in(const GrainSample& sample) {
                                       const std::string& column) {
   if (const std::string sizes = sizes_in(sample); !sizes.empty()) {
     refuse("The table has no column \"" + column + "\" for the size of the grains. Use " +
-           mention("size", sizes) + ", which the table has.");
+           mention("diameter", sizes) + ", which the table has.");
   }
   for (const std::string& text : table.text_columns) {
     if (text == column || text == "scan." + column) {

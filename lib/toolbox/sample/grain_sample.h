@@ -18,7 +18,7 @@ enum class SizeMeasure { Sieve, EquivalentDiameter, LargestFeret, SmallestFeret 
 
 template <>
 struct EnumerationTable<SizeMeasure> {
-  static constexpr std::string_view key = "size";
+  static constexpr std::string_view key = "diameter";
   static constexpr std::string_view subject = "size of a grain";
   static constexpr Enumerator<SizeMeasure> rows[] = {
       {SizeMeasure::Sieve, "sieve", "sieve size: second largest edge of the smallest box",
@@ -37,7 +37,7 @@ enum class SampledMesh { Scan, Remesh };
 
 template <>
 struct EnumerationTable<SampledMesh> {
-  static constexpr std::string_view key = "of";
+  static constexpr std::string_view key = "describe";
   static constexpr std::string_view subject = "measured mesh";
   static constexpr Enumerator<SampledMesh> rows[] = {
       {SampledMesh::Scan, "scan", "scan", "statistics of the scans"},

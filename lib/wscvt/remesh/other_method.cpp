@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh/other_method.h"
 
+#include <type_traits>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
+
 namespace wscvt {
 
 namespace {
@@ -45,6 +51,60 @@ Method other(Method method) {
   return method == Method::OnScan ? Method::AsPublished : Method::OnScan;
 }
 
+/// Reads typed options.
+class ReadTyped {
+ public:
+  ReadTyped(TypedOptions typed, const RefuseOption& refuse)
+      : typed_(std::move(typed)), refuse_(refuse) {}
+
+  template <class Number>
+  void operator()(Number& value, const NumberOption<Number>& option) {
+    take(option.key, [&](const std::string& text) { value = from_typed(text, option); });
+  }
+  void operator()(bool& value, const FlagOption& option) {
+    take(option.key, [&](const std::string& text) {
+      if (text != "true" && text != "false") {
+        refuse("The option " + std::string(option.key) + " is \"" + text +
+               "\". Give true or false.");
+      }
+      value = text == "true";
+    });
+  }
+  template <class Enumeration>
+  void operator()(Enumeration& value) {
+    constexpr std::string_view key = EnumerationTable<Enumeration>::key;
+    take(key, [&](const std::string& text) {
+      const std::string name = lower_case(text);
+      const Sentence refusal = refusal_of_value(key, name, method_);
+      if (!refusal.empty()) refuse(refusal);
+      value = from_key<Enumeration>(name);
+      if constexpr (std::is_same_v<Enumeration, Method>) method_ = value;
+    });
+  }
+
+  /// Refuses texts that no option has read.
+  void finish() const {
+    for (const auto& [key, text] : typed_) refuse_(key, refusal_of_option(key, method_));
+  }
+
+ private:
+  template <class Read>
+  void take(std::string_view key, const Read& read) {
+    const auto found = typed_.find(key);
+    if (found == typed_.end()) return;
+    try {
+      read(found->second);
+    } catch (const Error& error) {
+      refuse_(key, error.sentence());
+    }
+    typed_.erase(found);
+  }
+
+  TypedOptions typed_;
+  const RefuseOption& refuse_;
+  Method method_ = Method::OnScan;
+};
+
 }  // namespace
 
 Sentence refusal_of_option(std::string_view key, Method method) {
@@ -64,6 +124,12 @@ Sentence refusal_of_value(std::string_view key, std::string_view value, Method m
   }
   return Sentence("\"") + std::string(value) + "\" belongs to the method " + key_of(other(method)) +
          ", but the method is " + key_of(method) + ".";
+}
+
+void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse) {
+  ReadTyped read(typed, refuse);
+  for_each_option(options, read);
+  read.finish();
 }
 
 }  // namespace wscvt

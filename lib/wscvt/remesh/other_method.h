@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -14,5 +16,14 @@ Sentence refusal_of_option(std::string_view key, Method method);
 
 /// Returns such a sentence for a value of an option, or for a weighting that is gone.
 Sentence refusal_of_value(std::string_view key, std::string_view value, Method method);
+
+/// Options as users type them: texts by the options' keys.
+using TypedOptions = std::map<std::string, std::string, std::less<>>;
+
+/// Takes the key of an option and what is wrong with it; empty if no method has it. Throws.
+using RefuseOption = std::function<void(std::string_view key, const Sentence& refusal)>;
+
+/// Reads the texts into `options`, the method first. A flag is "true" or "false".
+void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse);
 
 }  // namespace wscvt

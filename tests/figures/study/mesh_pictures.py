@@ -161,7 +161,7 @@ def main():
         for body in bodies:
             scan, remesh = os.path.join(folder, "scan.obj"), os.path.join(folder, "remesh.obj")
             run = lambda *rest: subprocess.run(
-                [program, "remesh", *rest, "-q", "--overwrite"], check=True,
+                [program, "remesh", *rest, "-q"], check=True,
                 stderr=subprocess.DEVNULL)
             if os.path.isfile(body):  # 12,000 nodes on it show a scan, in a format that is read here
                 run(body, scan, "-n", "12000", "-p", "on-surface")

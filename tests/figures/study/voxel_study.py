@@ -125,7 +125,7 @@ def nodes(program):
             rms = scan["distances"]["rms_distance"]
             cells = []
             for count in (50, 100, 200, 400, 800, 1600):
-                call(program, "remesh", "scan/1.ply", "remesh.ply", "-n", count, "-q", "--overwrite")
+                call(program, "remesh", "scan/1.ply", "remesh.ply", "-n", count, "-q")
                 made = report(program, "describe", "remesh.ply", "true.off")["distances"]["rms_distance"]
                 side = np.sqrt(scan["descriptors"]["area"]["value"] / count)
                 cells.append(f"{count}: {side:.2f}, {made / rms:.2f}")
