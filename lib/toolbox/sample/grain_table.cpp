@@ -204,7 +204,14 @@ void TableReader::check_field(std::size_t k, const std::string& field,
   if (!number) {
     if (has_thousands(field)) fail_field(". Write numbers without marks between thousands.");
     if (is_size(fields_[k].name) || is_fraction(fields_[k].name)) {
-      fail_field(". Write a number without a unit or %, or leave the field empty.");
+      const std::string_view text = trimmed(field);
+      const std::size_t end = text.find_last_of("0123456789");
+      const std::string unit(end == std::string_view::npos ? "" : trimmed(text.substr(end + 1)));
+      fail_field(unit == "%" ? ". Write fractions of 1 without %."
+                 : unit.empty()
+                     ? ". Write a number, or leave the field empty."
+                     : ". Write numbers only, with the unit in the heading: \"" +
+                           readable(fields_[k].name, "") + " [" + readable(unit, "") + "]\".");
     }
     return;
   }
