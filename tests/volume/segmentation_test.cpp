@@ -335,6 +335,78 @@ class SegmentationOfTwoMinerals : public SegmentationOfAFile {
   }
 };
 
+/// A ball with a blur, of a radius and grey values between 0 and `grey`, as in the volume of the
+/// edge of a plane: exact enough far from the middle.
+double blurred_ball(double distance, double radius, double grey, double blur) {
+  return 0.5 * grey * std::erfc((distance - radius) / (std::sqrt(2.0) * blur));
+}
+
+TEST_F(SegmentationOfTwoMinerals, TellsHowMuchAPhaseOrBlurChangesVolumes) {
+  constexpr double radius = 8.0;
+  const std::array<Vector3, 4> middles = {Vector3(13.1, 13.4, 13.2), Vector3(40.3, 13.2, 13.7),
+                                          Vector3(13.6, 40.1, 13.9), Vector3(40.4, 40.7, 13.3)};
+  std::mt19937 random(6);
+  // Grey values over the void's of 40: of three grains and of one, of a film, and the blur.
+  const auto write_scan = [&](double first, double second, double film, double blur) {
+    made_ = MadeVolume({54, 54, 27});
+    made_.fill(0, [](const Vector3&) { return true; });
+    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+      const auto at = [&](std::size_t step, int count) {
+        return 0.5 + static_cast<double>(k / step % static_cast<std::size_t>(count));
+      };
+      const Vector3 p(at(1, 54), at(54, 54), at(std::size_t{54} * 54, 27));
+      double grey = 40.0;
+      for (std::size_t ball = 0; ball < middles.size(); ++ball) {
+        const double distance = (p - middles[ball]).norm();
+        const double over = ball == 3 ? second : first;
+        grey += blurred_ball(distance, radius, over - film, blur) +
+                blurred_ball(distance, radius + 3.5, film, blur);
+      }
+      made_.labels[k] = static_cast<Label>(grey + static_cast<double>(random() % 9));
+    }
+    write_made();
+    return segmented();
+  };
+  EXPECT_EQ(looks(write_scan(120, 120, 0, 0.8)), "");
+  EXPECT_EQ(looks(write_scan(120, 120, 0, 1.4)), "");
+
+  const std::string bright = looks(write_scan(40, 150, 0, 0.8));
+  EXPECT_NE(bright.find("% too large"), std::string::npos) << bright;
+  EXPECT_NE(bright.find("--threshold 11"), std::string::npos) << bright;
+
+  const std::string soft = looks(write_scan(120, 120, 0, 2.5));
+  EXPECT_NE(soft.find("too wide for grains of this size"), std::string::npos) << soft;
+  EXPECT_NE(soft.find("% too small"), std::string::npos) << soft;
+}
+
+TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
+  // Between phases at 40 and 180; blur has the fewest in the middle.
+  std::vector<std::uint64_t> counts(256, 0);
+  for (int k = 30; k < 190; ++k) {
+    counts[static_cast<std::size_t>(k)] = static_cast<std::uint64_t>(300 + (k - 110) * (k - 110));
+  }
+  EXPECT_FALSE(film_between(counts, 110.0, 140.0));
+  for (std::size_t k = 84; k < 96; ++k) counts[k] += 6000;
+  const std::optional<double> film = film_between(counts, 110.0, 140.0);
+  ASSERT_TRUE(film);
+  EXPECT_NEAR(*film, 90.0, 7.0) << "a window";
+
+  Segmentation found;
+  found.voxels = 10000;
+  found.material = 1500;
+  found.film_voxels = 500;
+  found.peaks = {40.0, 180.0};
+  found.film = 110.0;
+  bool is_told = false;
+  for (const Sentence& doubt : doubts_of(found)) {
+    const std::string text = doubt.text();
+    is_told = is_told || (text.find("as of a film") != std::string::npos &&
+                          text.find("up to 50 % too large") != std::string::npos &&
+                          text.find("--threshold 145") != std::string::npos);
+  }
+  EXPECT_TRUE(is_told);
+}
+
 TEST_F(SegmentationOfTwoMinerals, TakesBothNamesThePeaksAndFollowsItsAdvice) {
   make({void_grey, quartz, 220});
   write_made();

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "wscvt/base/numbers.h"
+
 namespace wscvt {
 
 namespace {
@@ -27,9 +29,9 @@ Clamped clamped_at(const GreyLevel& level) {
           static_cast<std::int32_t>(std::floor(level.value + half))};
 }
 
-/// Returns the variance of the blur along an axis, in voxels squared, from neighbours on either
-/// side of the level.
-double blur_of(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
+}  // namespace
+
+double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
                const VoxelCounts& counts, const GreyLevel& level) {
   const Clamped clamped = clamped_at(level);
   const auto width = static_cast<std::size_t>(counts[0]);
@@ -47,7 +49,7 @@ double blur_of(const std::vector<std::uint16_t>& grey, const std::vector<std::ui
     if (k % slice >= width) look(k, k - width);
     if (k >= slice) look(k, k - slice);
   }
-  if (pairs == 0) return 0.0;
+  if (pairs == 0 || sum == 0) return 0.0;
   // By tenths of a voxel of a Gaussian blur s: the mean difference over all places and directions
   // of an edge, 4 times the integral of (1 - v) (Phi(v / s) - 1 / 2) over v from 0 to 1.
   constexpr std::array<double, 16> differences = {1.0,    0.8504, 0.7208, 0.6113, 0.5213, 0.4492,
@@ -55,13 +57,16 @@ double blur_of(const std::vector<std::uint16_t>& grey, const std::vector<std::ui
                                                   0.2143, 0.1988, 0.1853, 0.1735};
   const double difference =
       static_cast<double>(sum) / static_cast<double>(pairs) / (clamped.most - clamped.least);
+  // Beyond the table, an edge is straight within a voxel.
+  if (difference < differences.back()) return 2.0 / (3.0 * std::sqrt(2.0 * pi) * difference);
   std::size_t above = 1;
   while (above + 1 < differences.size() && differences[above] > difference) ++above;
   const double share =
       (differences[above - 1] - difference) / (differences[above - 1] - differences[above]);
-  const double blur = 0.1 * (static_cast<double>(above - 1) + std::clamp(share, 0.0, 1.0));
-  return blur * blur;
+  return 0.1 * (static_cast<double>(above - 1) + std::clamp(share, 0.0, 1.0));
 }
+
+namespace {
 
 /// Returns the sums over each voxel and its 26 neighbours; beyond the border, the border's values.
 std::vector<std::uint32_t> sums_of(const std::vector<std::uint16_t>& grey,
@@ -118,8 +123,8 @@ std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
   // voxels take a little more, which was measured on balls and ellipsoids.
   constexpr double steps = 1.3;
   constexpr double of_three = 2.0 / 3.0;  // variance of a median, and of the mean
-  const double back =
-      steps * (blur_of(grey, outside, counts, level) + (level.medians + 1) * of_three);
+  const double blur = std::min(blur_at(grey, outside, counts, level), largest_blur);
+  const double back = steps * (blur * blur + (level.medians + 1) * of_three);
   const std::vector<std::uint32_t> sums = sums_of(grey, counts, clamped, execution);
   constexpr double voxels = 27.0;
   const double at = voxels * level.value;

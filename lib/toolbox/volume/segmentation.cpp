@@ -303,6 +303,47 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
   }
 }
 
+/// Measures what moves the surfaces of grains: blur, a film around them, and a threshold that is
+/// not half way from the phase with the highest contrast to the void. The void is the phase beyond
+/// the threshold that has the most voxels.
+void measure_edges(const ShortGrey& scan, const std::vector<std::uint8_t>& outside,
+                   const VoxelCounts& sizes, const GreyCounts& counts,
+                   const std::vector<GreyPeak>& peaks, Segmentation& result) {
+  const double level = (result.threshold - scan.base) / scan.step;
+  // Soft grains have no peak of their own among all voxels.
+  const double contrast = peaks.size() == 2 ? static_cast<double>(peaks[1].value - peaks[0].value)
+                                            : contrast_at(counts.all, level);
+  result.blur = blur_at(scan.grey, outside, sizes, {level, contrast, false, 1});
+  if (peaks.size() == 2) {
+    const std::optional<double> film = film_between(counts.all, level, contrast);
+    if (film) {
+      result.film = scan.base + scan.step * *film;
+      const double near = 0.3 * contrast;
+      for (std::size_t k = 0; k < counts.all.size(); ++k) {
+        const double beyond = (static_cast<double>(k) - level) * (result.is_dark ? -1.0 : 1.0);
+        if (beyond >= 0.0 && beyond <= near) result.film_voxels += counts.all[k];
+      }
+    }
+  }
+  if (peaks.size() < 3) return;
+  const GreyPeak* space = nullptr;
+  for (const GreyPeak& peak : peaks) {
+    const bool is_space = result.is_dark ? static_cast<double>(peak.value) > level
+                                         : static_cast<double>(peak.value) < level;
+    if (is_space && (space == nullptr || peak.voxels > space->voxels)) space = &peak;
+  }
+  if (space == nullptr) return;
+  const auto from = static_cast<double>(space->value);
+  const auto to = static_cast<double>(result.is_dark ? peaks.front().value : peaks.back().value);
+  const double middle = 0.5 * (from + to);
+  const double blur = std::min(
+      largest_blur, blur_at(scan.grey, outside, sizes, {middle, std::abs(to - from), false, 1}));
+  const double share = std::clamp((level - from) / (to - from), 0.02, 0.98);
+  // The normal distribution as a logistic one.
+  const double shift = blur / 1.702 * portable::log((1.0 - share) / share);
+  result.extreme = {scan.base + scan.step * to, scan.base + scan.step * middle, shift};
+}
+
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
 /// given, and the peaks of `result`.
 std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
@@ -310,15 +351,16 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       const SegmentationOptions& options, Segmentation& result,
                                       const Execution& execution) {
   const VoxelCounts& sizes = scan.geometry().counts;
-  auto [grey, base, step] = short_grey(scan, range, outside, execution.part(0.0, 0.2));
+  ShortGrey values = short_grey(scan, range, outside, execution.part(0.0, 0.2));
+  auto& [grey, base, step] = values;
   grey = median_of(grey, sizes, execution.part(0.2, 0.7));
   GreyCounts counts = counts_of(grey, outside, sizes);
   result.threshold = options.threshold.value_or(0.0);
+  std::vector<GreyPeak> peaks;
   if (!options.threshold) {
     if (!options.phases) {
       smooth_until_peaks(grey, counts, outside, sizes, result, execution.part(0.7, 0.9));
     }
-    std::vector<GreyPeak> peaks;
     result.threshold = base + step * level_of(counts.all, counts.inside, options, peaks);
     for (const GreyPeak& peak : peaks) {
       result.peaks.push_back(base + step * static_cast<double>(peak.value));
@@ -328,6 +370,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     result.is_flat =
         !are_phases(grey, counts.all, scan.geometry(), options, execution.part(0.9, 0.95));
   }
+  measure_edges(values, outside, sizes, counts, peaks, result);
   const double level = (result.threshold - base) / step;
   return level_mask(grey, outside, sizes,
                     {level, contrast_at(counts.all, level), options.dark, result.medians},

@@ -70,13 +70,25 @@ struct Segmentation {
   bool is_chosen = false;           ///< the options have a threshold or a number of phases
   double threshold = 0.0;           ///< as used
   std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
-  int medians = 1;                  ///< so often the grey values were smoothed; more for noise
-  std::uint64_t not_scanned = 0;    ///< voxels outside of what was scanned, see not_scanned
-  std::size_t cut = 0;              ///< grains that touch them; not among `grains`
-  std::uint64_t voxels = 0;         ///< of the volume
-  std::uint64_t material = 0;       ///< voxels of grains, including dropped ones
-  std::uint64_t dropped = 0;        ///< voxels of grains smaller than the smallest
-  std::uint64_t filled = 0;         ///< voxels of holes, which count as material
+  double blur = 0.0;                ///< of the edges at the threshold, a standard deviation, voxels
+  /// Grey value of a film between grains and void, see film_between; empty: there is none.
+  std::optional<double> film;
+  /// Voxels of the film that count as material, an estimate.
+  std::uint64_t film_voxels = 0;
+  /// The material with the highest contrast, if there are several phases.
+  struct Extreme {
+    double peak = 0.0;   ///< grey value
+    double level = 0.0;  ///< half way from it to the void around it
+    double shift = 0.0;  ///< by which the threshold moves its surface outwards, voxels
+  };
+  std::optional<Extreme> extreme;
+  int medians = 1;                ///< so often the grey values were smoothed; more for noise
+  std::uint64_t not_scanned = 0;  ///< voxels outside of what was scanned, see not_scanned
+  std::size_t cut = 0;            ///< grains that touch them; not among `grains`
+  std::uint64_t voxels = 0;       ///< of the volume
+  std::uint64_t material = 0;     ///< voxels of grains, including dropped ones
+  std::uint64_t dropped = 0;      ///< voxels of grains smaller than the smallest
+  std::uint64_t filled = 0;       ///< voxels of holes, which count as material
 };
 
 /// Grains that touch voxels that were not scanned (see scanned_region.h) are cut. They are left out

@@ -8,6 +8,7 @@
 
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/sample/distribution.h"
+#include "toolbox/volume/level_mask.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
@@ -163,6 +164,62 @@ double share_of(std::uint64_t part, std::uint64_t all) {
   return static_cast<double>(part) / static_cast<double>(all);
 }
 
+/// Returns the radius of a ball with the volume of the median grain; voxels.
+double median_radius(const Segmentation& segmentation) {
+  std::vector<std::uint64_t> voxels;
+  for (const LabelExtent& grain : segmentation.grains) voxels.push_back(grain.voxels);
+  if (voxels.empty()) return 0.0;
+  const auto middle = voxels.begin() + static_cast<std::ptrdiff_t>(voxels.size() / 2);
+  std::nth_element(voxels.begin(), middle, voxels.end());
+  return portable::cbrt(0.75 / pi * static_cast<double>(*middle));
+}
+
+/// Adds how much too large or too small grains come out.
+void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  const double radius = median_radius(segmentation);
+  constexpr double small = 0.05;
+  const auto cubed = [](double value) { return value * value * value; };
+  if (segmentation.extreme && radius > segmentation.extreme->shift) {
+    const auto& [peak, level, shift] = *segmentation.extreme;
+    const double bias = cubed(radius / (radius - shift)) - 1.0;
+    if (std::abs(bias) > small) {
+      doubts.push_back("The threshold is not half way between the grains of " +
+                       format_number(peak, 4) + " and the space around them, " +
+                       format_number(level, 4) + ": grains of this grey value come out about " +
+                       std::to_string(std::llround(100.0 * std::abs(bias))) + " % too " +
+                       (bias > 0.0 ? "large. For their volumes, segment them once more by " +
+                                         mention("threshold", format_number(level, 4)) + "."
+                                   : Sentence("small.")));
+    }
+  }
+  if (segmentation.film && segmentation.material > 2 * segmentation.film_voxels) {
+    const double grain =
+        segmentation.is_dark ? segmentation.peaks.front() : segmentation.peaks.back();
+    const double share =
+        share_of(segmentation.film_voxels, segmentation.material - segmentation.film_voxels);
+    doubts.push_back(
+        "Many voxels between grains and void are near " + format_number(*segmentation.film, 4) +
+        ", as of a film of water around the grains: grains come out up to " +
+        std::to_string(std::llround(100.0 * share)) +
+        " % too large. For grains without the film, segment once more by " +
+        mention("threshold", format_number(0.5 * (*segmentation.film + grain), 4)) + ".");
+    return;
+  }
+  // What is not corrected moves the surface by its variance over the radius.
+  const double rest = segmentation.blur * segmentation.blur - largest_blur * largest_blur;
+  const double loss = radius > 0.0 ? 3.0 * rest / (radius * radius) : 0.0;
+  if (loss > small && segmentation.medians == 1) {
+    doubts.push_back("The edges of the grains are soft: a blur with a standard deviation of " +
+                     format_number(segmentation.blur, 2) +
+                     " voxels, too wide for grains of this "
+                     "size. At most " +
+                     format_number(largest_blur, 2) + " is corrected: grains of the median size, " +
+                     format_number(2.0 * radius, 3) + " voxels across, come out about " +
+                     std::to_string(std::llround(100.0 * std::min(1.0, loss))) +
+                     " % too small, smaller ones more. Use a sharper scan.");
+  }
+}
+
 }  // namespace
 
 std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
@@ -210,6 +267,7 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
                      mention("phases", "1") + ".");
   }
+  add_biases(segmentation, doubts);
   if (segmentation.medians > 1) {
     doubts.push_back("The noise is strong: the grey values were smoothed " +
                      std::to_string(segmentation.medians) +
