@@ -127,6 +127,32 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
   EXPECT_LT(errors[12], 1.5);
 }
 
+// A grain inside another, and inside a cup: no projection of their wall tells its area.
+TEST_F(FabricOfAFile, TakesAWallThatClosesOnItselfForAContact) {
+  constexpr double radius = 9.0;
+  for (const double rim : {48.0, 31.0}) {
+    MadeVolume made({48, 46, 44});
+    const Vector3 middle(24.3, 23.1, 22.4);
+    made.fill(1, [&](const Vector3& p) { return (p - middle).norm() < 18.0 && p.z() < rim; });
+    made.fill_ball(2, middle, radius);
+    write_labels(made);
+    const Fabric fabric = measured("labels.nrrd");
+    ASSERT_EQ(fabric.contacts.size(), 1U);
+    EXPECT_TRUE(fabric.contacts[0].is_contact) << rim;
+    EXPECT_TRUE(fabric.contacts[0].is_closed) << rim;
+    EXPECT_EQ(fabric.closed_count, 1U);
+    const double covered = std::min(2.0 * radius, rim - middle.z() + radius);
+    // Steps of voxels over a ball: within a tenth, as its uncertainty says.
+    EXPECT_NEAR(fabric.contacts[0].area / (2.0 * pi * radius * covered), 1.0, 0.1) << rim;
+    EXPECT_EQ(fabric.tensor.norm(), 0.0) << "it has no normal";
+    bool is_told = false;
+    for (const std::string& line : fabric_lines(fabric)) {
+      is_told = is_told || line.find("closes on itself") != std::string::npos;
+    }
+    EXPECT_TRUE(is_told);
+  }
+}
+
 TEST_F(FabricOfAFile, RefusesGreyValues) {
   std::mt19937 random(22);
   MadeVolume scan = chain();
@@ -446,7 +472,7 @@ TEST_F(FabricOfAFile, WritesWhatItMeasured) {
                 format_number(tensor(i, j), 4));
     }
   }
-  const test::Rows areas = test::table_named(page, "area of the contacts");
+  const test::Rows areas = test::table_named(page, "projected area of the contacts");
   ASSERT_EQ(areas.size(), 3U);
   EXPECT_EQ(areas[1].back(), format_number(all, 4));
   EXPECT_EQ(areas[2].back(), format_number(raw, 4));

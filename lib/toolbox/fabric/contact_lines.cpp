@@ -148,6 +148,7 @@ class LineCounter {
     for (std::size_t k = 0; k < 3; ++k) point[k] -= pair.origin[k];
     if (gap == 0) {
       pair.faces.add(point);
+      ++pair.faces_across[axis];
       return;
     }
     pair.around.add(point);

@@ -38,9 +38,10 @@ struct LabelPair {
   /// the second minus lines from the second to the first.
   std::array<std::array<std::int64_t, 3>, widest_gap + 1> lines = {};
   HalfVoxels origin = {};
-  PointSums faces;   ///< middles of the faces between the two
-  PointSums beside;  ///< middles of the gaps of one voxel
-  PointSums around;  ///< middles of all gaps
+  std::array<std::int64_t, 3> faces_across = {};  ///< faces between the two across each axis
+  PointSums faces;                                ///< their middles
+  PointSums beside;                               ///< middles of the gaps of one voxel
+  PointSums around;                               ///< middles of all gaps
 };
 
 /// A label and sums over its voxels.

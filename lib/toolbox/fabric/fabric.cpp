@@ -128,7 +128,7 @@ class PairMeasure {
     contact.centre_uncertainty =
         std::sqrt((faces.variances.sum() + lattice_.size * lattice_.size / 12.0) / faces.count);
     set_normal(contact);
-    set_area(contact, radius);
+    if (!set_closed(contact)) set_area(contact, radius);
   }
 
  private:
@@ -155,6 +155,30 @@ class PairMeasure {
     const Vector3 normal = plane.normal.dot(area) < 0.0 ? Vector3(-plane.normal) : plane.normal;
     contact.normal = blur_ ? Vector3((normal + area).normalized()) : normal;
     contact.normal_uncertainty = plane_uncertainty(plane, blur_ ? 9.0 : 1.0);
+  }
+
+  /// Whether the wall closes on itself: its faces' area vectors nearly cancel each other, and few
+  /// gaps are around it.
+  bool set_closed(FabricContact& contact) const {
+    double all = 0.0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      all += static_cast<double>(pair_.faces_across[static_cast<std::size_t>(k)]) *
+             lattice_.faces.col(k).norm();
+    }
+    // A cube of two voxels has 24 faces. Of a plane wall at least .58 of the faces' area is
+    // projected, of half a sphere .33.
+    constexpr std::size_t fewest = 24;
+    constexpr double most = 0.3;
+    contact.is_closed = contact.faces >= fewest && contact.raw_area < most * all &&
+                        pair_.faces.count > pair_.around.count;
+    if (!contact.is_closed) return false;
+    contact.is_contact = true;
+    contact.area = 2.0 / 3.0 * all;
+    // Of walls that are more along the axes than others.
+    constexpr double shape = 0.1;
+    contact.area_uncertainty = shape * contact.area;
+    contact.normal_uncertainty = 90.0;
+    return true;
   }
 
   void set_area(FabricContact& contact, double radius) const {
@@ -246,13 +270,17 @@ void add_statistics(Fabric& fabric) {
     }
     if (!contact.is_contact) continue;
     ++fabric.contact_count;
+    if (contact.is_closed) {
+      ++fabric.closed_count;
+      continue;
+    }
     fabric.tensor += contact.normal * contact.normal.transpose();
     const Vector3 along = contact.branch.normalized();
     fabric.branch_tensor += along * along.transpose();
   }
-  if (fabric.contact_count > 0) {
-    fabric.tensor /= static_cast<double>(fabric.contact_count);
-    fabric.branch_tensor /= static_cast<double>(fabric.contact_count);
+  if (const std::size_t open = fabric.contact_count - fabric.closed_count; open > 0) {
+    fabric.tensor /= static_cast<double>(open);
+    fabric.branch_tensor /= static_cast<double>(open);
   }
   std::size_t ends = 0;
   for (const FabricGrain& grain : fabric.grains) {

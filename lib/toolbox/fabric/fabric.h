@@ -22,6 +22,10 @@ namespace wscvt {
 // around a contact touches too. For grains with the radius of curvature r (harmonic mean) and a gap
 // that closes at the width w the ring's area is about pi r w. A negative remainder is a gap.
 //
+// The area is that of the wall's projection along its normal. A wall that closes on itself, as
+// around an inclusion, has no projection and no ring: its area is that of the wall, two thirds of
+// its faces' area, the mean over all directions, and it has no normal.
+//
 // Exact labels: w = h / 2 times the sum of |n_k|^3 over the axes k, h the size of a voxel, n the
 // normal; .375 h on average. Labels of a blurred scan: w follows from the width of its edges.
 
@@ -51,14 +55,15 @@ struct FabricContact {
   std::size_t first = 0;             ///< index of a grain
   std::size_t second = 0;            ///< index of the other, which has the larger label
   bool is_contact = false;           ///< the corrected area is above 0
+  bool is_closed = false;            ///< the wall closes on itself, see above
   std::size_t faces = 0;             ///< of voxels that both labels share
   double raw_area = 0.0;             ///< length of the sum of the faces' area vectors; length^2
-  double area = 0.0;                 ///< corrected; below 0 for a gap; length^2
+  double area = 0.0;                 ///< projected, corrected; below 0 for a gap; length^2
   double area_uncertainty = 0.0;     ///< length^2
   Vector3 centre = Vector3::Zero();  ///< of the shared faces; length
   double centre_uncertainty = 0.0;   ///< length
   Vector3 normal = Vector3::Zero();  ///< from the first grain to the second; length 1
-  double normal_uncertainty = 0.0;   ///< degrees
+  double normal_uncertainty = 0.0;   ///< degrees; 90 without a normal
   Vector3 branch = Vector3::Zero();  ///< from the first grain's centre to the second's; length
   bool at_border = false;            ///< one of the grains touches the border
 };
@@ -72,11 +77,12 @@ struct Fabric {
   /// Standard deviation of the scan's blur, that of its voxels included; empty without a scan;
   /// length.
   std::optional<double> blur;
-  /// Mean over the contacts of n n^T; trace 1; zero without contacts.
+  /// Mean of n n^T over the contacts with a normal; trace 1; zero without contacts.
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
   /// The same of the branch vectors' directions.
   Eigen::Matrix3d branch_tensor = Eigen::Matrix3d::Zero();
   std::size_t contact_count = 0;
+  std::size_t closed_count = 0;  ///< of them, those that close on themselves
   std::size_t whole_grains = 0;  ///< grains that do not touch the border
   double coordination = 0.0;     ///< mean number of contacts of the whole grains; 0 without any
 };

@@ -23,6 +23,8 @@ void append(std::vector<std::string>& fields, const Vector3& vector) {
 
 std::string yes(bool value) { return value ? "1" : "0"; }
 
+bool has_disc(const FabricContact& contact) { return contact.is_contact && !contact.is_closed; }
+
 /// Adds a disc as a fan about its centre. Its area is the contact's.
 void add_disc(const FabricContact& contact, IndexedMesh& mesh) {
   const Vector3 right = contact.normal.unitOrthogonal();
@@ -45,7 +47,7 @@ std::string point_array(const Fabric& fabric, const std::string& type,
                         const std::function<std::string(const FabricContact&)>& text) {
   std::string numbers;
   for (const FabricContact& contact : fabric.contacts) {
-    if (!contact.is_contact) continue;
+    if (!has_disc(contact)) continue;
     const std::string line = text(contact) + "\n";
     for (int k = 0; k <= disc_corners; ++k) numbers += line;
   }
@@ -117,7 +119,7 @@ std::string fabric_grains_csv(const Fabric& fabric) {
 std::string contacts_vtp(const Fabric& fabric) {
   IndexedMesh mesh;
   for (const FabricContact& contact : fabric.contacts) {
-    if (contact.is_contact) add_disc(contact, mesh);
+    if (has_disc(contact)) add_disc(contact, mesh);
   }
   const auto vectors = [&](const std::string& name, Vector3 FabricContact::*member) {
     return point_array(
@@ -163,14 +165,20 @@ std::vector<std::string> fabric_lines(const Fabric& fabric) {
           (pairs == 1 ? " pair of labels touches: " : " pairs of labels touch: ") +
           std::to_string(fabric.contact_count) + " in contact, " +
           std::to_string(pairs - fabric.contact_count) + " with a narrow gap",
-      "Area of the contacts " + format_number(area, 4) + after + (unit.empty() ? "" : "^2") +
-          ", of all faces between labels " + format_number(raw, 4) + after +
-          (unit.empty() ? "" : "^2")};
+      "Projected area of the contacts " + format_number(area, 4) + after +
+          (unit.empty() ? "" : "^2") + ", of all pairs as the labels have it " +
+          format_number(raw, 4) + after + (unit.empty() ? "" : "^2")};
+  if (fabric.closed_count > 0) {
+    lines.push_back(std::to_string(fabric.closed_count) +
+                    (fabric.closed_count == 1 ? " wall closes on itself: its area is"
+                                              : " walls close on themselves: their area is") +
+                    " that of the wall, not projected, and it has no normal");
+  }
   if (fabric.whole_grains > 0) {
     lines.push_back("Mean coordination of the grains not at the border: " +
                     format_number(fabric.coordination, 3));
   }
-  if (fabric.contact_count > 0) {
+  if (fabric.contact_count > fabric.closed_count) {
     const auto diagonal = [](const Eigen::Matrix3d& t) {
       return format_number(t(0, 0), 3) + " " + format_number(t(1, 1), 3) + " " +
              format_number(t(2, 2), 3);

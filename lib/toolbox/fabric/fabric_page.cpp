@@ -121,7 +121,7 @@ void add_areas(const Fabric& fabric, HtmlDocument& page) {
   std::vector<double> raw;
   std::vector<double> areas;
   for (const FabricContact& contact : fabric.contacts) {
-    if (!contact.is_contact) continue;
+    if (!contact.is_contact || contact.is_closed) continue;
     raw.push_back(contact.raw_area);
     areas.push_back(contact.area);
   }
@@ -130,7 +130,7 @@ void add_areas(const Fabric& fabric, HtmlDocument& page) {
   const std::string square =
       unit.empty() ? "voxel faces or the square of the file's unit" : unit + "^2";
   std::vector<std::vector<std::string>> rows = {
-      {"area of the contacts", "smallest", "10 %", "50 %", "90 %", "largest", "sum"}};
+      {"projected area of the contacts", "smallest", "10 %", "50 %", "90 %", "largest", "sum"}};
   for (auto& [name, values] : {std::pair<std::string, std::vector<double>*>{"corrected", &areas},
                                {"as the labels have it", &raw}}) {
     std::sort(values->begin(), values->end());
@@ -157,11 +157,11 @@ std::string fabric_html(const Fabric& fabric, const ReportOrigin& origin) {
   page.add_paragraph(origin_sentence(origin));
   page.add_lines(fabric_lines(fabric));
   add_coordination(fabric, page);
-  if (fabric.contact_count == 0) return page.text();
+  if (fabric.contact_count == fabric.closed_count) return page.text();
   std::vector<Vector3> normals;
   std::vector<Vector3> branches;
   for (const FabricContact& contact : fabric.contacts) {
-    if (!contact.is_contact) continue;
+    if (!contact.is_contact || contact.is_closed) continue;
     normals.push_back(contact.normal);
     branches.push_back(contact.branch);
   }
