@@ -182,8 +182,8 @@ TEST_F(MeshIo, RefusesStlThatWouldMergeVertices) {
 
 TEST_F(MeshIo, RefusesStlWhoseStepsTurnFaces) {
   // As a rock in coordinates of a map: no two vertices coincide, but faces turn by degrees.
-  const IndexedMesh far = test::transformed(test::lumpy(3), Eigen::Matrix3d::Identity(),
-                                            Vector3(5e5, 5.4e5, 100.0));
+  const IndexedMesh far =
+      test::transformed(test::lumpy(3), Eigen::Matrix3d::Identity(), Vector3(5e5, 5.4e5, 100.0));
   try {
     write_mesh(far, path("a.stl"));
     FAIL() << "the mesh was rounded in silence";

@@ -48,7 +48,7 @@ struct ClumpOptions {
   double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
 };
 
-inline constexpr NumberOption<int> sphere_count_option = {"spheres",    "number of spheres", 1, 1000,
+inline constexpr NumberOption<int> sphere_count_option = {"spheres",  "number of spheres", 1, 1000,
                                                           Ends::Both, "of the clump"};
 inline constexpr NumberOption<double> clump_error_option = {
     "max-error",
@@ -57,8 +57,12 @@ inline constexpr NumberOption<double> clump_error_option = {
     100.0,
     Ends::NotMaximum,
     "use the fewest spheres with at most this error, in %; 0: use the given number of spheres"};
-inline constexpr NumberOption<int> most_spheres_option = {
-    "max-spheres", "max. number of spheres", 1, 1000, Ends::Both, "in the search for the allowed error"};
+inline constexpr NumberOption<int> most_spheres_option = {"max-spheres",
+                                                          "max. number of spheres",
+                                                          1,
+                                                          1000,
+                                                          Ends::Both,
+                                                          "in the search for the allowed error"};
 inline constexpr NumberOption<double> smallest_radius_option = {
     "smallest-radius", "smallest radius of a sphere",  0.0, 100.0,
     Ends::Both,        "in % of the equivalent radius"};

@@ -20,7 +20,7 @@ namespace wscvt {
 namespace {
 
 constexpr double told_excess = 0.05;
-constexpr double told_noise = 0.025;       // of a surface that is bent both ways
+constexpr double told_noise = 0.025;      // of a surface that is bent both ways
 constexpr double cosine_of_near = 0.978;  // 12 degrees
 
 /// Faces of a mesh, their neighbours, and the means of their area vectors.

@@ -12,8 +12,12 @@
 namespace wscvt {
 
 CrossingPairs crossing_pairs(const IndexedMesh& mesh, const Execution& execution) {
-  constexpr std::size_t most_asked = 20000;
+  // Finds 20 of the faces of a dent that has a hundredth of them.
+  constexpr std::size_t most_asked = 2000;
+  // Boxes of more would take more memory than the rest of a run.
+  constexpr std::size_t most_faces = 2000000;
   const std::size_t faces = mesh.triangles.size();
+  if (faces > most_faces) return {0, false};
   if (faces <= most_asked) return {self_intersections(mesh, execution).size(), true};
   using FaceBox = CGAL::Box_intersection_d::Box_with_info_d<float, 3, std::int32_t>;
   const auto corner = [&](std::size_t f, std::size_t k) -> const Vector3& {
