@@ -375,7 +375,7 @@ TEST_F(SegmentationOfTwoMinerals, TellsHowMuchAPhaseOrBlurChangesVolumes) {
   EXPECT_NE(bright.find("--threshold 11"), std::string::npos) << bright;
 
   const std::string soft = looks(write_scan(120, 120, 0, 2.5));
-  EXPECT_NE(soft.find("too wide for grains of this size"), std::string::npos) << soft;
+  EXPECT_NE(soft.find("too small, smaller ones more"), std::string::npos) << soft;
   EXPECT_NE(soft.find("% too small"), std::string::npos) << soft;
 }
 

@@ -231,6 +231,7 @@ class JobTables {
 /// Removes half-written files of a killed job, for the grains from `first` on.
 void remove_parts(const GrainJob& job, const std::vector<JobFolder>& folders,
                   const std::vector<std::string>& grains, std::size_t first) {
+  remove_partial_file((fs::path(job.folder) / "labels.csv").string());
   for (const JobFolder& folder : folders) {
     for (std::size_t k = first; k < grains.size(); ++k) {
       remove_partial_file(folder.file_of(grains[k]));

@@ -183,13 +183,15 @@ void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts)
     const auto& [peak, level, shift] = *segmentation.extreme;
     const double bias = cubed(radius / (radius - shift)) - 1.0;
     if (std::abs(bias) > small) {
-      doubts.push_back("The threshold is not half way between the grains of " +
-                       format_number(peak, 4) + " and the space around them, " +
-                       format_number(level, 4) + ": grains of this grey value come out about " +
-                       std::to_string(std::llround(100.0 * std::abs(bias))) + " % too " +
-                       (bias > 0.0 ? "large. For their volumes, segment them once more by " +
-                                         mention("threshold", format_number(level, 4)) + "."
-                                   : Sentence("small.")));
+      doubts.push_back(
+          "The threshold is not half way between the grains of " + format_number(peak, 4) +
+          " and the space around them, " + format_number(level, 4) +
+          ": grains of this grey value come out about " +
+          std::to_string(std::llround(100.0 * std::abs(bias))) + " % too " +
+          (bias > 0.0
+               ? "large. For their volumes, segment once more, without the other grains, by " +
+                     mention("threshold", format_number(level, 4)) + "."
+               : Sentence("small.")));
     }
   }
   if (segmentation.film && segmentation.material > 2 * segmentation.film_voxels) {
@@ -199,7 +201,7 @@ void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts)
         share_of(segmentation.film_voxels, segmentation.material - segmentation.film_voxels);
     doubts.push_back(
         "Many voxels between grains and void are near " + format_number(*segmentation.film, 4) +
-        ", as of a film of water around the grains: grains come out up to " +
+        ", as of a film of water around the grains: grains come out about " +
         std::to_string(std::llround(100.0 * share)) +
         " % too large. For grains without the film, segment once more by " +
         mention("threshold", format_number(0.5 * (*segmentation.film + grain), 4)) + ".");
@@ -209,14 +211,14 @@ void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts)
   const double rest = segmentation.blur * segmentation.blur - largest_blur * largest_blur;
   const double loss = radius > 0.0 ? 3.0 * rest / (radius * radius) : 0.0;
   if (loss > small && segmentation.medians == 1) {
-    doubts.push_back("The edges of the grains are soft: a blur with a standard deviation of " +
-                     format_number(segmentation.blur, 2) +
-                     " voxels, too wide for grains of this "
-                     "size. At most " +
-                     format_number(largest_blur, 2) + " is corrected: grains of the median size, " +
-                     format_number(2.0 * radius, 3) + " voxels across, come out about " +
-                     std::to_string(std::llround(100.0 * std::min(1.0, loss))) +
-                     " % too small, smaller ones more. Use a sharper scan.");
+    doubts.push_back(
+        "The edges of the grains are soft, as by a blur with a standard deviation of " +
+        format_number(segmentation.blur, 2) + " voxels. At most " + format_number(largest_blur, 2) +
+        " is corrected: by such a blur, grains of the median size, " +
+        format_number(2.0 * radius, 3) + " voxels across, come out about " +
+        std::to_string(std::llround(100.0 * std::min(1.0, loss))) +
+        " % too small, smaller ones more. A film around the grains makes soft edges too, and "
+        "grains too large: look at the slices.");
   }
 }
 
