@@ -83,8 +83,9 @@ CLI::App& add_command(CLI::App& program, FragmentArguments& arguments) {
       program,
       {"fragment",
        "Divide a grain into fragments that fill it, for breakage",
-       {"grain.ply -k 20 -o out", "grain.ply -k 50 -o out --near 0,0,1.2 --format obj",
-        "grain.ply -k 100 -o out --sizes sieve.csv", "grain.ply -k 20 -o out -n 200 --format shp"},
+       {"grain.ply -k 20 -o fragments", "grain.ply -k 50 -o fragments --near 0,0,1.2 --format obj",
+        "grain.ply -k 100 -o fragments --sizes sieve.csv",
+        "grain.ply -k 20 -o fragments -n 200 --format shp"},
        "OUT gets fragment_1.ply to fragment_K.ply, fragments.csv, and contacts.csv with the area, "
        "centre\nand normal of each wall. Two fragments have the same triangles on their wall. "
        "Remesh a dense\nscan first: the fragments keep all points of the surface."});

@@ -401,7 +401,7 @@ TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
   for (const Sentence& doubt : doubts_of(found)) {
     const std::string text = doubt.text();
     is_told = is_told || (text.find("as of a film") != std::string::npos &&
-                          text.find("up to 50 % too large") != std::string::npos &&
+                          text.find("about 50 % too large") != std::string::npos &&
                           text.find("--threshold 145") != std::string::npos);
   }
   EXPECT_TRUE(is_told);

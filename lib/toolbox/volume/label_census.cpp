@@ -128,10 +128,10 @@ void GreyCheck::add_row(const std::vector<Label>& row, std::int32_t y) {
 void GreyCheck::check(std::uint64_t fewest) const {
   constexpr double most = 0.5;
   if (along_x_.all < fewest || along_y_.all < fewest) return;
-  const double share = std::min(along_x_.share(), along_y_.share());
-  if (share <= most) return;
+  const double fraction = std::min(along_x_.fraction(), along_y_.fraction());
+  if (fraction <= most) return;
   throw Error(ErrorCode::InvalidInput,
-              "These look like grey values, not labels: " + format_percent(share) +
+              "These look like grey values, not labels: " + format_percent(fraction) +
                   " of all neighbouring voxels differ. Make labels of them first: wscvt segment "
                   "SCAN labels.nrrd.");
 }

@@ -47,7 +47,7 @@ class GreyCheck {
     std::uint64_t all = 0;
     std::uint64_t different = 0;
     void count(const Label* a, const Label* b, std::size_t size, Label background);
-    double share() const { return static_cast<double>(different) / static_cast<double>(all); }
+    double fraction() const { return static_cast<double>(different) / static_cast<double>(all); }
   };
   void check(std::uint64_t fewest) const;
 
