@@ -12,8 +12,8 @@
 namespace wscvt {
 
 CrossingPairs crossing_pairs(const IndexedMesh& mesh, const Execution& execution) {
-  // Finds 20 of the faces of a dent that has a hundredth of them.
-  constexpr std::size_t most_asked = 2000;
+  // Finds 5 of the faces of a dent that has a hundredth of them.
+  constexpr std::size_t most_asked = 500;
   // Boxes of more would take more memory than the rest of a run.
   constexpr std::size_t most_faces = 2000000;
   const std::size_t faces = mesh.triangles.size();

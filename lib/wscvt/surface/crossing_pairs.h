@@ -12,13 +12,13 @@ namespace wscvt {
 /// Pairs of triangles of a mesh that intersect, counted in bounded time.
 struct CrossingPairs {
   std::size_t count = 0;  ///< as self_intersections finds them
-  /// Whether all triangles were looked at. Else 2000, spread over the mesh, were looked at, each
+  /// Whether all triangles were looked at. Else 500, spread over the mesh, were looked at, each
   /// against all others.
   bool is_all = true;
 };
 
 /// Counts the pairs of triangles that intersect outside their shared corners and edges. A mesh of
-/// up to 2000 triangles is looked at as a whole, one of more than 2,000,000 not at all. Throws
+/// up to 500 triangles is looked at as a whole, one of more than 2,000,000 not at all. Throws
 /// Error(Cancelled).
 CrossingPairs crossing_pairs(const IndexedMesh& mesh, const Execution& execution = Execution(1));
 
