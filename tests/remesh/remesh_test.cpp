@@ -607,6 +607,27 @@ TEST(Remesh, ANumberOfNodesThatDoesNotReachALongBodyIsRefusedWithOneThatDoes) {
   EXPECT_EQ(remesh(test::sphere(3), options, Execution(1)).mesh.points.size(), 4U);
 }
 
+TEST(Remesh, TellsOfTrianglesOfTheScanThatIntersectAtAnyNumberOfNodes) {
+  IndexedMesh dented = test::lumpy(4);
+  const Vector3 place = dented.points[100];
+  for (Vector3& p : dented.points) {
+    if ((p - place).norm() < 0.25) p *= -0.6;
+  }
+  const auto told = [](const IndexedMesh& scan, int nodes) {
+    RemeshOptions options;
+    options.node_count = nodes;
+    std::string text;
+    for (const Sentence& warning : remesh(scan, options, Execution(1)).warnings) {
+      text += warning.text() + "\n";
+    }
+    return text.find("intersect") != std::string::npos;
+  };
+  for (const int nodes : {60, 200, 600}) {
+    EXPECT_TRUE(told(dented, nodes)) << nodes;
+    EXPECT_FALSE(told(test::lumpy(4), nodes)) << nodes;
+  }
+}
+
 TEST(Remesh, SurfacesFromFormulasAreDiscretisedAboutTheirOrigin) {
   const Ellipsoid ellipsoid(Vector3(13.0, 9.0, 7.0));
   for (const Weighting weighting : {Weighting::RadialDistance, Weighting::Curvature}) {

@@ -109,6 +109,33 @@ TEST(SelfIntersections, AreThoseThatCgalFinds) {
   }
 }
 
+TEST(SelfIntersections, OfSomeTrianglesAreThosePairsThatHaveOne) {
+  std::mt19937_64 random(test::announced(20));
+  for (int body = 0; body < 20; ++body) {
+    IndexedMesh mesh = test::sphere(2);
+    std::uniform_real_distribution<double> shift(-0.04 * body, 0.04 * body);
+    // Also far away, and with triangles without area.
+    const Vector3 place = body % 2 == 0 ? Vector3(1e6, -1e6, 3.0) : Vector3::Zero();
+    for (Vector3& p : mesh.points) {
+      p += Vector3(shift(random), shift(random), shift(random));
+      if (body % 4 == 3) p = (4.0 * p).array().round();
+      p += place;
+    }
+    std::vector<std::int32_t> asked;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (random() % 5 == 0) asked.push_back(static_cast<std::int32_t>(t));
+    }
+    const auto is_asked = [&](std::int32_t t) {
+      return std::binary_search(asked.begin(), asked.end(), t);
+    };
+    std::vector<TrianglePair> expected;
+    for (const TrianglePair& pair : self_intersections(mesh)) {
+      if (is_asked(pair.first) || is_asked(pair.second)) expected.push_back(pair);
+    }
+    EXPECT_EQ(self_intersections_of(asked, mesh, Execution(2)), expected) << "body " << body;
+  }
+}
+
 TEST(SelfIntersections, StopsWhenCancelled) {
   const IndexedMesh mesh = test::sphere(6);
   test::expect_to_be_stopped(

@@ -2,8 +2,6 @@
 #include "toolbox/conforming/wall_repair.h"
 
 #include <algorithm>
-#include <cmath>
-#include <unordered_set>
 
 #include "wscvt/base/triangle_geometry.h"
 
@@ -11,77 +9,40 @@ namespace wscvt {
 
 namespace {
 
-/// Calls visit(key) for the cells of a grid that a triangle's box touches.
-template <class Visit>
-void visit_cells(const WallMesh& mesh, std::size_t t, double cell, const Visit& visit) {
-  const auto& [a, b, c] = mesh.triangles[t].corners;
-  const Vector3& x = mesh.points[index(a)];
-  const Vector3& y = mesh.points[index(b)];
-  const Vector3& z = mesh.points[index(c)];
-  std::array<std::int64_t, 3> low{};
-  std::array<std::int64_t, 3> high{};
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    low[static_cast<std::size_t>(k)] =
-        static_cast<std::int64_t>(std::floor(std::min({x[k], y[k], z[k]}) / cell));
-    high[static_cast<std::size_t>(k)] =
-        static_cast<std::int64_t>(std::floor(std::max({x[k], y[k], z[k]}) / cell));
+/// The walls as a mesh, whose triangles stay while its points move.
+class WallPairs {
+ public:
+  explicit WallPairs(const WallMesh& walls) {
+    for (const WallTriangle& t : walls.triangles) mesh_.triangles.push_back(t.corners);
   }
-  constexpr std::int64_t bits = 21;
-  constexpr std::int64_t mask = (std::int64_t{1} << bits) - 1;
-  for (std::int64_t i = low[0]; i <= high[0]; ++i) {
-    for (std::int64_t j = low[1]; j <= high[1]; ++j) {
-      for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-        visit(((i & mask) << bits | (j & mask)) << bits | (k & mask));
+
+  /// Returns the intersecting pairs of triangles at these points.
+  std::vector<TrianglePair> all(const std::vector<Vector3>& points, const Execution& execution) {
+    mesh_.points = points;
+    return self_intersections(mesh_, execution.part(0.0, 0.0));
+  }
+
+  /// Returns those that have a triangle with a corner in `near`.
+  std::vector<TrianglePair> near(const std::vector<Vector3>& points, const std::vector<char>& near,
+                                 const Execution& execution) {
+    mesh_.points = points;
+    std::vector<std::int32_t> asked;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Triangle& c = mesh_.triangles[t];
+      if (std::any_of(c.begin(), c.end(), [&](auto v) { return near[index(v)] != 0; })) {
+        asked.push_back(static_cast<std::int32_t>(t));
       }
     }
+    return self_intersections_of(asked, mesh_, execution.part(0.0, 0.0));
   }
-}
 
-/// Returns the intersecting pairs of triangles; with `near`, only of those near its vertices.
-std::vector<TrianglePair> pairs_of(const WallMesh& mesh, const std::vector<char>* near, double cell,
-                                   const Execution& execution) {
-  std::unordered_set<std::int64_t> cells;
-  if (near != nullptr) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& c = mesh.triangles[t].corners;
-      if (std::none_of(c.begin(), c.end(), [&](auto v) { return (*near)[index(v)] != 0; }))
-        continue;
-      visit_cells(mesh, t, cell, [&](std::int64_t key) { cells.insert(key); });
-    }
+  std::vector<std::int32_t> vertices_of(const std::vector<TrianglePair>& pairs) const {
+    return wscvt::vertices_of(pairs, mesh_.triangles);
   }
-  IndexedMesh some;
-  some.points = mesh.points;
-  std::vector<std::int32_t> numbers;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    bool is_in = near == nullptr;
-    if (!is_in) {
-      visit_cells(mesh, t, cell, [&](std::int64_t key) { is_in = is_in || cells.count(key) > 0; });
-    }
-    if (!is_in) continue;
-    some.triangles.push_back(mesh.triangles[t].corners);
-    numbers.push_back(static_cast<std::int32_t>(t));
-  }
-  std::vector<TrianglePair> pairs = self_intersections(some, execution.part(0.0, 0.0));
-  for (auto& [a, b] : pairs) {
-    a = numbers[index(a)];
-    b = numbers[index(b)];
-  }
-  return pairs;
-}
 
-/// Returns the corners of the pairs, ascending.
-std::vector<std::int32_t> corners_of(const WallMesh& mesh, const std::vector<TrianglePair>& pairs) {
-  std::vector<std::int32_t> corners;
-  for (const auto& [a, b] : pairs) {
-    for (const std::int32_t t : {a, b}) {
-      const Triangle& c = mesh.triangles[index(t)].corners;
-      corners.insert(corners.end(), c.begin(), c.end());
-    }
-  }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
-}
+ private:
+  IndexedMesh mesh_;
+};
 
 /// Moves the nodes of intersecting triangles: sheets of free surface away from each other, by
 /// `step`, others to the middle of their neighbours.
@@ -141,14 +102,14 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   constexpr int most_partings = 10;
   constexpr int most_restorations = 5;
   constexpr double step = 0.1;  // of a voxel; wide against rounding, small against a gap
-  const double cell = 3.0 * voxel;
+  WallPairs walls(mesh);
   std::vector<char> is_near(mesh.points.size(), 0);
-  std::vector<TrianglePair> pairs = pairs_of(mesh, nullptr, cell, execution);
+  std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
-    for (const std::int32_t v : corners_of(mesh, pairs)) is_near[index(v)] = 1;
+    for (const std::int32_t v : walls.vertices_of(pairs)) is_near[index(v)] = 1;
     part_pairs(mesh, pairs, step * voxel);
-    pairs = pairs_of(mesh, &is_near, cell, execution);
+    pairs = walls.near(mesh.points, is_near, execution);
   }
   const std::vector<Vector3> parted = mesh.points;
   std::vector<double> shares(parted.size(), 1.0);
@@ -158,10 +119,10 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
     mesh.points = parted;
     result.volume_error = restore_volumes(mesh.points, mesh.triangles, volumes, shares);
     // After the first time only moves about pairs change much.
-    if (k > 0) result.pairs = pairs_of(mesh, &is_near, cell, execution);
-    if (k == 0 || result.pairs.empty()) result.pairs = pairs_of(mesh, nullptr, cell, execution);
+    if (k > 0) result.pairs = walls.near(mesh.points, is_near, execution);
+    if (k == 0 || result.pairs.empty()) result.pairs = walls.all(mesh.points, execution);
     if (result.pairs.empty()) break;
-    for (const std::int32_t v : corners_of(mesh, result.pairs)) {
+    for (const std::int32_t v : walls.vertices_of(result.pairs)) {
       shares[index(v)] *= 0.1;
       mesh.visit_triangles(v, [&](std::size_t t) {
         for (const std::int32_t c : mesh.triangles[t].corners) {
@@ -171,7 +132,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
       });
     }
   }
-  if (!result.pairs.empty()) result.pairs = pairs_of(mesh, nullptr, cell, execution);
+  if (!result.pairs.empty()) result.pairs = walls.all(mesh.points, execution);
   return result;
 }
 

@@ -11,7 +11,7 @@ namespace wscvt {
 
 /// Pairs of triangles of a mesh that intersect, counted in bounded time.
 struct CrossingPairs {
-  std::size_t count = 0;  ///< as self_intersections finds them
+  std::size_t count = 0;  ///< of triangles with an area
   /// Whether all triangles were looked at. Else 500, spread over the mesh, were looked at, each
   /// against all others.
   bool is_all = true;

@@ -6,6 +6,7 @@
 #include <CGAL/intersections.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace wscvt {
@@ -25,48 +26,117 @@ CGAL::Bbox_3 box_of(const std::vector<Vector3>& points, const Triangle& t) {
   return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
 }
 
+bool is_flat(const std::vector<Vector3>& points, const Triangle& t) {
+  return CGAL::collinear(exact(points[t[0]]), exact(points[t[1]]), exact(points[t[2]]));
+}
+
+/// Collects candidates, and keeps those that intersect.
+class PairDecider {
+ public:
+  PairDecider(const IndexedMesh& mesh, std::vector<TrianglePair>& pairs, const Execution& execution)
+      : mesh_(mesh), pairs_(pairs), execution_(execution) {}
+
+  void add(std::int32_t a, std::int32_t b) {
+    constexpr std::size_t candidates_at_once = 1 << 16;  // some hundredths of a second
+    candidates_.emplace_back(std::minmax(a, b));
+    if (candidates_.size() == candidates_at_once) decide();
+  }
+
+  void decide() {
+    constexpr std::size_t block_size = 256;
+    meet_.assign(candidates_.size(), 0);
+    execution_.parallel_for(
+        candidates_.size(), block_size, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const auto& [a, b] = candidates_[i];
+            meet_[i] = triangles_meet(mesh_.points, mesh_.triangles[a], mesh_.triangles[b]) ? 1 : 0;
+          }
+        });
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (meet_[i] != 0) pairs_.push_back(candidates_[i]);
+    }
+    candidates_.clear();
+  }
+
+ private:
+  const IndexedMesh& mesh_;
+  std::vector<TrianglePair>& pairs_;
+  const Execution& execution_;
+  std::vector<TrianglePair> candidates_;
+  std::vector<char> meet_;
+};
+
 }  // namespace
 
 std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh, const Execution& execution) {
   execution.report(0.0, intersection_stage);
-  const std::vector<Vector3>& points = mesh.points;
   std::vector<TrianglePair> pairs;
   std::vector<Box> boxes;
   boxes.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
     const auto number = static_cast<std::int32_t>(t);
-    if (CGAL::collinear(exact(points[a]), exact(points[b]), exact(points[c]))) {
+    if (is_flat(mesh.points, mesh.triangles[t])) {
       pairs.emplace_back(number, number);
     } else {
-      boxes.emplace_back(box_of(points, mesh.triangles[t]), number);
+      boxes.emplace_back(box_of(mesh.points, mesh.triangles[t]), number);
     }
   }
   // Not CGAL's Polygon_mesh_processing::self_intersections, which tests the same pairs of boxes: it
   // needs a half-edge mesh first, and cannot be cancelled.
-  std::vector<TrianglePair> candidates;
-  std::vector<char> meet;
-  const auto decide = [&] {
-    constexpr std::size_t block_size = 256;
-    meet.assign(candidates.size(), 0);
-    execution.parallel_for(candidates.size(), block_size, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto& [a, b] = candidates[i];
-        meet[i] = triangles_meet(points, mesh.triangles[a], mesh.triangles[b]) ? 1 : 0;
-      }
-    });
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      if (meet[i] != 0) pairs.push_back(candidates[i]);
-    }
-    candidates.clear();
-  };
-  constexpr std::size_t candidates_at_once = 1 << 16;  // some hundredths of a second
+  PairDecider decider(mesh, pairs, execution);
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-    candidates.emplace_back(std::minmax(a.info(), b.info()));
-    if (candidates.size() == candidates_at_once) decide();
+    decider.add(a.info(), b.info());
   });
-  decide();
+  decider.decide();
   std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+std::vector<TrianglePair> self_intersections_of(const std::vector<std::int32_t>& asked,
+                                                const IndexedMesh& mesh,
+                                                const Execution& execution) {
+  std::vector<TrianglePair> pairs;
+  if (asked.empty()) return pairs;
+  execution.report(0.0, intersection_stage);
+  // Of floats, because all triangles have a box. They are about a point of the mesh, and a little
+  // larger, because floats have few digits.
+  using FloatBox = CGAL::Box_intersection_d::Box_with_info_d<float, 3, std::int32_t>;
+  const Vector3 origin = mesh.points[mesh.triangles.front()[0]];
+  const auto float_box_of = [&](std::int32_t t) {
+    constexpr double rounding = 1e-6;
+    const CGAL::Bbox_3 box = box_of(mesh.points, mesh.triangles[t]);
+    float low[3];
+    float high[3];
+    for (int k = 0; k < 3; ++k) {
+      const double least = box.min(k) - origin[k];
+      const double most = box.max(k) - origin[k];
+      low[k] = static_cast<float>(least - rounding * std::abs(least));
+      high[k] = static_cast<float>(most + rounding * std::abs(most));
+    }
+    return FloatBox(low, high, t);
+  };
+  std::vector<FloatBox> all;
+  all.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    all.push_back(float_box_of(static_cast<std::int32_t>(t)));
+  }
+  std::vector<FloatBox> some;
+  for (const std::int32_t t : asked) {
+    if (is_flat(mesh.points, mesh.triangles[t])) {
+      pairs.emplace_back(t, t);
+    } else {
+      some.push_back(all[static_cast<std::size_t>(t)]);
+    }
+  }
+  PairDecider decider(mesh, pairs, execution);
+  CGAL::box_intersection_d(
+      some.begin(), some.end(), all.begin(), all.end(), [&](const FloatBox& a, const FloatBox& b) {
+        if (a.info() == b.info() || is_flat(mesh.points, mesh.triangles[b.info()])) return;
+        decider.add(a.info(), b.info());
+      });
+  decider.decide();
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 

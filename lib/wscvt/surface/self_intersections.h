@@ -20,6 +20,12 @@ using TrianglePair = std::pair<std::int32_t, std::int32_t>;
 std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh,
                                              const Execution& execution = Execution(1));
 
+/// Returns those of the pairs that have a triangle in `asked`, numbers of triangles: takes time for
+/// these triangles and a box of each other one. Throws Error(Cancelled).
+std::vector<TrianglePair> self_intersections_of(const std::vector<std::int32_t>& asked,
+                                                const IndexedMesh& mesh,
+                                                const Execution& execution = Execution(1));
+
 /// Returns whether two triangles of a mesh, given by their corners, intersect outside their shared
 /// corners and edges. Two triangles with the same three corners do. Exact; both must have an area.
 bool triangles_meet(const std::vector<Vector3>& points, const Triangle& a, const Triangle& b);
