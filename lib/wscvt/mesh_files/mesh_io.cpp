@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -32,6 +31,7 @@
 #include "wscvt/mesh_files/face_names.h"
 #include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/readers.h"
+#include "wscvt/mesh_files/single_precision.h"
 #include "wscvt/mesh_files/text_writers.h"
 #include "wscvt/mesh_files/texture_files.h"
 
@@ -160,22 +160,6 @@ std::size_t fallen_together(const std::vector<Vector3>& points) {
     if (sorted[i].place == sorted[i - 1].place && *sorted[i].point != *sorted[i - 1].point) ++count;
   }
   return count;
-}
-
-/// Returns the steps of single precision at the largest coordinate, as a fraction of the mean edge.
-double single_step(const IndexedMesh& mesh) {
-  double largest = 0.0;
-  for (const Vector3& p : mesh.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += (mesh.points[index(t[k])] - mesh.points[index(t[(k + 1) % 3])]).norm();
-    }
-  }
-  if (!(sum > 0.0) || !std::isfinite(sum)) return 0.0;
-  // Floats have 24 binary digits.
-  const double step = std::ldexp(1.0, std::ilogb(largest) - 23);
-  return step * 3.0 * static_cast<double>(mesh.triangles.size()) / sum;
 }
 
 std::vector<LibraryPoint> library_points(const IndexedMesh& mesh) {
@@ -390,11 +374,9 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
 
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
-  // As for scans, see precision_warning: coarser steps turn faces and change the volume.
-  constexpr double coarse_step = 0.03;
   if (format.write == write_stl) {
     const std::size_t lost = fallen_together(mesh.points);
-    const double step = single_step(mesh);
+    const double step = single_precision_step(mesh);
     if (lost > 0 || step > coarse_step) {
       fail(path,
            "cannot store this mesh: binary STL keeps seven digits of a coordinate, which are "

@@ -9,30 +9,11 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/single_precision.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Steps above this fraction of the mean edge are coarse. Rounding moves corners by up to half a
-/// step, which turns the edges of a face by about a degree.
-constexpr double coarse_step = 0.03;
-
-/// Returns the mean edge length over faces spread evenly over the list, enough for two digits.
-double mean_edge(const IndexedMesh& mesh) {
-  constexpr std::size_t most = 10000;
-  const std::size_t stride = 1 + mesh.triangles.size() / most;
-  double sum = 0.0;
-  double edges = 0.0;
-  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
-    const Triangle& t = mesh.triangles[f];
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
-      edges += 1.0;
-    }
-  }
-  return edges > 0.0 ? sum / edges : 0.0;
-}
 
 std::size_t collapsed_faces(const IndexedMesh& mesh) {
   return static_cast<std::size_t>(
@@ -97,7 +78,7 @@ bool is_measurable(const IndexedMesh& mesh) {
       if (v < 0 || v >= count || !mesh.points[v].allFinite()) return false;
     }
   }
-  return mean_edge(mesh) > 0.0;
+  return sampled_mean_edge(mesh) > 0.0;
 }
 
 std::string lost(std::size_t faces) {
@@ -109,20 +90,13 @@ std::string lost(std::size_t faces) {
 
 std::string single_precision_warning(const IndexedMesh& mesh) {
   if (!is_measurable(mesh)) return "";
-  double largest = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t)
-      largest = std::max(largest, mesh.points[v].cwiseAbs().maxCoeff());
-  }
-  const double edge = mean_edge(mesh);
-  // The step of floats as large as the largest coordinate; floats have 24 binary digits.
-  const double float_step = std::ldexp(1.0, std::ilogb(largest) - 23);
-  if (float_step > coarse_step * edge && all_coordinates(mesh, [](double value) {
+  const double step = single_precision_step(mesh);
+  if (step > coarse_step && all_coordinates(mesh, [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value;
       })) {
     return "The scan is so far from the origin that its coordinates, in single precision, have "
            "steps of " +
-           format_percent(float_step / edge) + " of the mean edge" + lost(collapsed_faces(mesh)) +
+           format_percent(step) + " of the mean edge" + lost(collapsed_faces(mesh)) +
            ". Move the scan to the origin before it is saved in single precision, or save it in "
            "double.";
   }
@@ -132,7 +106,7 @@ std::string single_precision_warning(const IndexedMesh& mesh) {
 std::string precision_warning(const IndexedMesh& mesh) {
   const std::string far = single_precision_warning(mesh);
   if (!far.empty() || !is_measurable(mesh)) return far;
-  const double edge = mean_edge(mesh);
+  const double edge = sampled_mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.
   const double power_of_ten = portable::pow(10.0, std::floor(-portable::log10(coarse_step * edge)));
   if (!std::isfinite(power_of_ten) ||
