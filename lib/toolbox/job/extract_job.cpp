@@ -77,7 +77,7 @@ std::string line_of(const std::string& census, const std::string& noun) {
 
 }  // namespace
 
-std::string volume_json(const VolumeOptions& options) {
+Json json_of(const VolumeOptions& options) {
   Json json = Json::object();
   const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };
   put(smallest_option.key, options.smallest);
@@ -93,7 +93,7 @@ std::string volume_json(const VolumeOptions& options) {
   const bool is_nan = std::isnan(options.background);
   put(background_option.key, is_nan ? Json("nan") : Json(options.background));
   put(at_border_option.key, options.at_border);
-  return json.dump();
+  return json;
 }
 
 BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execution)
@@ -171,7 +171,7 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
   const bool of_labels = options.table == "labels";
   const std::string header = of_labels ? label_header() : named("grain", body_header());
   Json call = {{"format", "wscvt-extract"}, {"made_by", made_by()}, {"meshes", options.format}};
-  if (of_labels) call["volume"] = Json::parse(volume_json(options.volume));
+  if (of_labels) call["volume"] = json_of(options.volume);
   if (!of_labels) call["smallest"] = options.smallest_body;
   GrainJob job;
   job.folder = folder;

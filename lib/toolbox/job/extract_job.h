@@ -9,14 +9,15 @@
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/option.h"
 #include "wscvt/repair/bodies.h"
+#include "wscvt/report/json.h"
 
 namespace wscvt {
 
 inline constexpr NumberOption<double> smallest_body_option = {
     "smallest", "volume of the smallest body in % of the largest one's", 0.0, 100.0};
 
-/// Returns every option of a volume under the name that users type, as JSON.
-std::string volume_json(const VolumeOptions& options);
+/// Returns every option of a volume under the name that users type.
+Json json_of(const VolumeOptions& options);
 
 /// The closed bodies of a mesh, with the names PATH/1, PATH/2, ... in the order of the file. Its
 /// census is a table of all bodies: CSV with a row per body, see lib/doc/program.md.

@@ -40,7 +40,7 @@ std::string call_text(const RemeshJob& job) {
                {"describe", key_of(job.shapes.described)},
                {"contacts", job.shapes.contacts},
                {"resolution", job.shapes.resolution},
-               {"volume", Json::parse(volume_json(job.volume))},
+               {"volume", json_of(job.volume)},
                {"options", json_of(job.remesh)}};
   if (is_for_simulation(job)) {
     const SimulationOptions& simulation = job.simulation;

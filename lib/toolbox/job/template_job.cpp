@@ -14,7 +14,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -33,7 +32,7 @@ constexpr int spheres_of_template = 12;  ///< of a template's clump
 /// Returns the mesh with an equivalent radius of 1, about its centroid in its principal frame.
 IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
-  const double radius = portable::cbrt(3.0 / (4.0 * pi) * shape.volume);
+  const double radius = equivalent_radius(shape.volume);
   const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix().transpose();
   for (Vector3& point : mesh.points) point = turn * (point - shape.centroid) / radius;
   return mesh;

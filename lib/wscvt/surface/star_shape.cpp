@@ -22,6 +22,7 @@ double rim_share(double flatness) {
 }
 
 Vector3 least_direction(const Eigen::Matrix3d& tensor) {
+  // Not Eigen's iterative solver, which took 2 % of a fit.
   // The adjugate has the products of the other two values, so the smallest one's is largest. Each
   // square doubles the ratio's power.
   constexpr int squares = 5;
