@@ -525,6 +525,28 @@ void append_centres(const Part& inner, const std::unordered_set<std::uint64_t>& 
   }
 }
 
+/// The points of a part, among those of several that are asked at once.
+struct AskedPart {
+  std::size_t part;
+  std::size_t begin;
+  std::size_t end;
+  std::size_t inside = 0;  ///< number of these points inside of a mesh
+
+  std::size_t count() const { return end - begin; }
+};
+
+void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
+                  std::vector<AskedPart>& asked, const Execution& execution) {
+  if (asked.empty()) return;
+  const std::vector<char> inside = are_inside(mesh, points, execution);
+  for (AskedPart& one : asked) {
+    const auto first = inside.begin();
+    one.inside =
+        static_cast<std::size_t>(std::count(first + static_cast<std::ptrdiff_t>(one.begin),
+                                            first + static_cast<std::ptrdiff_t>(one.end), 1));
+  }
+}
+
 /// Finds for every closed part the parts that contain it.
 void find_holders(std::vector<Part>& parts, const Execution& execution) {
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {
@@ -532,7 +554,7 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
                      "Splitting the mesh");
     const Part& holder = parts[outer];
     if (holder.volume == 0.0) continue;
-    std::vector<std::pair<std::size_t, std::size_t>> asked;  // part, end of its points
+    std::vector<AskedPart> asked;
     std::vector<Vector3> points;
     std::unordered_set<std::uint64_t> places;
     for (std::size_t inner = 0; inner < parts.size(); ++inner) {
@@ -546,18 +568,13 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
         continue;
       }
       if (places.empty()) places = places_of(holder.mesh);
+      const std::size_t begin = points.size();
       append_centres(part, places, points);
-      asked.emplace_back(inner, points.size());
+      asked.push_back({inner, begin, points.size()});
     }
-    if (asked.empty()) continue;
-    const std::vector<char> inside = are_inside(holder.mesh, points, execution);
-    std::size_t begin = 0;
-    for (const auto& [inner, end] : asked) {
-      const bool is_inside = std::all_of(inside.begin() + static_cast<std::ptrdiff_t>(begin),
-                                         inside.begin() + static_cast<std::ptrdiff_t>(end),
-                                         [](char one) { return one != 0; });
-      if (is_inside) parts[inner].holders.push_back(outer);
-      begin = end;
+    count_inside(holder.mesh, points, asked, execution);
+    for (const AskedPart& one : asked) {
+      if (one.inside == one.count()) parts[one.part].holders.push_back(outer);
     }
   }
 }
@@ -587,7 +604,7 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Part& pore = parts[p];
     if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
-    std::vector<std::pair<std::size_t, std::size_t>> asked;  // part, end of its points
+    std::vector<AskedPart> asked;
     std::vector<Vector3> points;
     for (std::size_t q = 0; q < parts.size(); ++q) {
       const Part& part = parts[q];
@@ -598,21 +615,16 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
                        [&](std::size_t h) { return h != q && contains(part.holders, h); })) {
         continue;
       }
+      const std::size_t begin = points.size();
       append_depths(part, points);
-      asked.emplace_back(q, points.size());
+      asked.push_back({q, begin, points.size()});
     }
-    if (asked.empty()) continue;
-    const std::vector<char> inside = are_inside(pore.mesh, points, execution);
-    std::size_t begin = 0;
-    for (const auto& [q, end] : asked) {
-      const auto count = std::count(inside.begin() + static_cast<std::ptrdiff_t>(begin),
-                                    inside.begin() + static_cast<std::ptrdiff_t>(end), 1);
-      if (2 * static_cast<std::size_t>(count) > end - begin) {
-        parts[q].holders.push_back(p);
-        pore.holders.erase(std::remove(pore.holders.begin(), pore.holders.end(), q),
-                           pore.holders.end());
-      }
-      begin = end;
+    count_inside(pore.mesh, points, asked, execution);
+    for (const AskedPart& one : asked) {
+      if (2 * one.inside <= one.count()) continue;
+      parts[one.part].holders.push_back(p);
+      pore.holders.erase(std::remove(pore.holders.begin(), pore.holders.end(), one.part),
+                         pore.holders.end());
     }
   }
 }
