@@ -16,25 +16,12 @@
 #include <system_error>
 #include <vector>
 
-#include "batch_command.h"
-#include "call_words.h"
-#include "clump_command.h"
-#include "command.h"
-#include "completion.h"
-#include "convex_command.h"
-#include "create_command.h"
-#include "describe_command.h"
-#include "exit_code.h"
-#include "extract_command.h"
-#include "fragment_command.h"
-#include "grow_command.h"
-#include "man_pages.h"
-#include "remesh_command.h"
-#include "sample_command.h"
-#include "segment_command.h"
-#include "signals.h"
-#include "standard_streams.h"
-#include "wrong_call.h"
+#include "program/call/call_words.h"
+#include "program/call/command.h"
+#include "program/call/exit_code.h"
+#include "program/call/help_files.h"
+#include "program/commands/commands.h"
+#include "program/terminal/terminal.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
@@ -42,17 +29,6 @@
 namespace {
 
 namespace program = wscvt::program;
-
-struct Command {
-  CLI::App* app;
-  std::function<int()> run;
-};
-
-template <class Arguments>
-Command make_command(CLI::App& app) {
-  const auto arguments = std::make_shared<Arguments>();
-  return {&program::add_command(app, *arguments), [arguments] { return run(*arguments); }};
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
@@ -66,13 +42,11 @@ int run(int argc, char** argv) {
       program::exit_code_text(true));
   app.set_version_flag("-v,--version", std::string("wscvt ") + wscvt::version());
   app.require_subcommand(1);
-  const std::vector<Command> commands = {
-      make_command<program::RemeshArguments>(app),   make_command<program::DescribeArguments>(app),
-      make_command<program::CreateArguments>(app),   make_command<program::SegmentArguments>(app),
-      make_command<program::ExtractArguments>(app),  make_command<program::BatchArguments>(app),
-      make_command<program::SampleArguments>(app),   make_command<program::GrowArguments>(app),
-      make_command<program::ClumpArguments>(app),    make_command<program::ConvexArguments>(app),
-      make_command<program::FragmentArguments>(app),
+  const std::vector<program::Command> commands = {
+      program::remesh_command(app),  program::describe_command(app), program::create_command(app),
+      program::segment_command(app), program::extract_command(app),  program::batch_command(app),
+      program::sample_command(app),  program::grow_command(app),     program::clump_command(app),
+      program::convex_command(app),  program::fragment_command(app),
   };
   const auto print_completion = [&app](std::int64_t) {
     throw CLI::CallForVersion(program::bash_completion(app), 0);  // printed like the version
@@ -97,7 +71,7 @@ int run(int argc, char** argv) {
   }
   try {
     std::vector<std::string> names;
-    for (const Command& command : commands) names.push_back(command.app->get_name());
+    for (const program::Command& command : commands) names.push_back(command.app->get_name());
     program::CallWords call = program::call_words({argv + std::min(argc, 1), argv + argc}, names);
     std::reverse(call.words.begin(), call.words.end());  // order required by CLI11
     app.parse(call.words);
@@ -113,7 +87,7 @@ int run(int argc, char** argv) {
     if (!std::cout.flush()) throw std::runtime_error("The help could not be written.");
     return program::Done;
   }
-  for (const Command& command : commands) {
+  for (const program::Command& command : commands) {
     if (command.app->parsed()) return command.run();
   }
   return program::WrongArguments;

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/arguments/grain_inputs.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "program/arguments/common_arguments.h"
+#include "program/arguments/volume_arguments.h"
+#include "program/call/command.h"
+#include "program/call/exit_code.h"
+#include "program/terminal/terminal.h"
+#include "program/terminal/work.h"
+#include "toolbox/job/label_source.h"
+#include "toolbox/sample/given_sizes.h"
+#include "toolbox/volume/open_volume.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt::program {
+
+namespace {
+
+void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet) {
+  if (bodies.list.empty()) return;
+  print({path + ": " + std::to_string(bodies.list.size()) + " bodies"}, quiet);
+  print(bodies.warnings, quiet);
+  for (std::size_t k = 0; k < bodies.list.size(); ++k) {
+    const std::string& name = bodies.list[k].name;
+    if (!name.empty()) print({"  " + std::to_string(k + 1) + ": " + name}, quiet);
+  }
+}
+
+void copy_text(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::ifstream file(from, std::ios::binary);
+  write_file(to.string(), std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+/// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
+/// gives their weights and sizes.
+std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
+                               const GrainSource& grains, EngineShapes shapes,
+                               const FrameOptions& frame) {
+  const JobFolder folder = folders_of(job).front();
+  std::vector<EngineGrain> list;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    list.push_back({grains.name(k), folder.name_of(grains.name(k))});
+  }
+  const std::filesystem::path out(folder.path());
+  const std::filesystem::path in(arguments.inputs.front());
+  if (arguments.inputs.size() == 1 && std::filesystem::exists(in / "templates.csv")) {
+    copy_text(in / "templates.csv", out / "templates.csv");
+    if (arguments.sizes.empty()) copy_text(in / "sizes.csv", out / "sizes.csv");
+  }
+  if (!arguments.sizes.empty()) copy_text(arguments.sizes, out / "sizes.csv");
+  return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame);
+}
+
+}  // namespace
+
+bool ScanInputs::is_sample() const {
+  return !engine.empty() || inputs.size() > 1 || names_files(inputs.front()) ||
+         is_volume(inputs.front());
+}
+
+void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
+                     std::string& format, EngineShapes shapes) {
+  app.add_option("scans", arguments.inputs,
+                 mesh_argument_text("Scan", MeshUse::Read) +
+                     "; or several scans, folders, patterns in quotes, volumes of labels, or @FILE "
+                     "with one of these per line")
+      ->type_name("INPUT")
+      ->required();
+  app.add_option(
+         "--format", format,
+         "Ending of the " + files + " of several scans, without the point. Default: " + format)
+      ->type_name("NAME")
+      ->group(finer_settings);
+  add_shard_argument(app, arguments.shard);
+  app.get_option("--shard")->group(finer_settings);
+  app.add_option("--engine", arguments.engine,
+                 "Make a folder of the " + files +
+                     " that this engine packs: " + engine_names(shapes) +
+                     ". Its run.py starts the engine; scene.json has the number of grains, the "
+                     "container and the materials")
+      ->type_name("NAME");
+  app.add_option("--sizes", arguments.sizes,
+                 "Size curve of the packing, a CSV file of two columns: equivalent diameter, % "
+                 "finer by mass. Default: the grains' own sizes")
+      ->type_name("FILE")
+      ->group(finer_settings);
+}
+
+void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
+                         const std::string& format, FrameOptions& frame) {
+  if (arguments.engine.empty()) {
+    if (!arguments.sizes.empty()) refuse("--sizes is for a packing. Give --engine too.");
+    return;
+  }
+  check_engine(arguments.engine, shapes);
+  if (format != engine_format(shapes)) {
+    refuse("The engine's files have their own format. Leave out --format.");
+  }
+  if (frame.frame == Frame::Centred) {
+    refuse("The engine's files are in the principal frame. Leave out --frame.");
+  }
+  frame.frame = Frame::Principal;
+  if (!arguments.sizes.empty()) read_given_sizes(arguments.sizes);
+}
+
+void check_sample_outputs(const std::vector<std::string>& outputs,
+                          const std::vector<std::string>& reports, const std::string& files,
+                          const std::function<bool(const std::string&)>& is_file) {
+  if (outputs.size() != 1 || is_file(outputs.front())) {
+    refuse("Several scans are given. Give one folder with -o, and --format for the " + files + ".");
+  }
+  if (!reports.empty()) {
+    refuse(
+        "Several scans are given. Their table is grains.csv in the folder of -o. Leave out "
+        "--report.");
+  }
+}
+
+int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
+               const FrameOptions& frame, int threads, bool quiet) {
+  const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
+  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  job.long_names = inputs->volumes() > 1;
+  const JobEnd end = run_job(job, *inputs, threads, quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
+  print({end_line(job, end)}, quiet);
+  if (!arguments.engine.empty() && arguments.shard.count == 1) {
+    const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame);
+    print({"Pack them: cd " + folders_of(job).front().path() + " && " + start}, quiet);
+  }
+  return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
+}
+
+std::vector<std::string> input_files(const std::vector<std::string>& inputs) {
+  std::vector<std::string> files = grain_files(inputs, is_volume);
+  for (const std::string& file : files) {
+    if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
+  }
+  return files;
+}
+
+std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
+                                         const VolumeOptions& options, const Shard& shard,
+                                         bool quiet) {
+  auto inputs = std::make_unique<JoinedGrains>(shard);
+  for (const std::string& path : files) {
+    if (is_volume(path)) {
+      std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
+      print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
+      inputs->add(std::make_unique<LabelSource>(path, std::move(grains)));
+    } else if (options.parts) {
+      std::unique_ptr<MeshGrains> bodies = with_progress(
+          quiet, [&](const Execution& one) { return std::make_unique<MeshGrains>(path, one); });
+      print_bodies(path, bodies->bodies(), quiet);
+      inputs->add(std::move(bodies));
+    } else {
+      inputs->add(std::make_unique<MeshGrains>(path));
+    }
+  }
+  return inputs;
+}
+
+}  // namespace wscvt::program

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "program/arguments/common_arguments.h"
+#include "program/arguments/grain_inputs.h"
+#include "program/arguments/output_paths.h"
+#include "program/arguments/simulation_arguments.h"
+#include "program/arguments/volume_arguments.h"
+#include "program/call/command.h"
+#include "program/call/exit_code.h"
+#include "program/commands/commands.h"
+#include "program/terminal/terminal.h"
+#include "program/terminal/work.h"
+#include "toolbox/conforming/conforming_files.h"
+#include "toolbox/conforming/conforming_grains.h"
+#include "toolbox/job/extract_job.h"
+#include "toolbox/job/label_source.h"
+#include "toolbox/volume/label_table.h"
+#include "toolbox/volume/open_volume.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/mesh_files/mesh_io.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// `wscvt extract`: makes a mesh of each label of a volume, or of each body of a mesh.
+struct ExtractArguments {
+  std::string input;  ///< a volume or a mesh
+  std::string folder;
+  std::string smallest;  ///< voxels, or % of the largest body; empty: the job's
+  ExtractJob job;
+  Shard shard;
+  bool conforming = false;         ///< remeshes all labels at once
+  ConformingOptions walls;         ///< of that; its smoothing is the job's
+  TetrahedraArguments tetrahedra;  ///< of conforming grains
+  int threads = 0;
+  bool quiet = false;
+};
+
+namespace fs = std::filesystem;
+
+constexpr FlagOption conforming_option = {
+    "conforming", "remesh all grains at once",
+    "with common walls; OUT also gets walls.vtu, walls.msh, walls.csv and grains.csv"};
+
+/// Remeshes all taken labels at once.
+int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
+  const std::vector<Label> labels = taken_labels(grains);
+  Work work(arguments.threads, arguments.quiet);
+  const MadeFolder folder(arguments.folder);
+  const auto in_folder = [&](const std::string& name) {
+    return (fs::path(arguments.folder) / name).string();
+  };
+  require_no_job(arguments.folder);
+  check_writable(in_folder("grains.csv"));
+  ConformingOptions options = arguments.walls;
+  options.smoothing = arguments.job.volume.smoothing;
+  const ConformingGrains result =
+      conform_labels(grains.voxels(), labels, options, work.execution());
+  const std::vector<IndexedMesh> meshes = grain_meshes(result);
+  std::vector<std::string> files;
+  for (std::size_t g = 0; g < labels.size(); ++g) {
+    files.push_back(std::to_string(labels[g]) + "." + arguments.job.format);
+    work.write(in_folder(files.back()),
+               [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
+  }
+  const auto write = [&](const char* name, const std::string& text) {
+    work.write(in_folder(name),
+               [&](const std::string& path, const Execution&) { write_file(path, text); });
+  };
+  std::string rows = label_header();
+  for (const LabelExtent& label : grains.labels()) {
+    rows += label_row(arguments.input, grains, label, {});
+  }
+  write("labels.csv", rows);
+  write("walls.vtu", walls_vtu(result, labels));
+  write("walls.msh", walls_msh(result, labels));
+  write("walls.csv", walls_csv(result, labels));
+  write("grains.csv", conforming_csv(result, labels, files));
+  std::vector<std::string> lines = conforming_lines(result);
+  const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
+    std::vector<std::string> names;
+    for (const Label label : labels) names.push_back(std::to_string(label));
+    return tetrahedra_in(meshes, "grain", names, arguments.tetrahedra.edge, work.execution());
+  });
+  lines.insert(lines.end(), filled.begin(), filled.end());
+  const Sentence warning = intersection_warning(result, labels);
+  work.print(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning}, lines);
+  return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
+}
+
+/// Returns the bodies of a mesh, with a progress line on a terminal unless quiet.
+std::unique_ptr<BodyGrains> open_bodies(const ExtractArguments& arguments) {
+  return with_progress(arguments.quiet, [&](const Execution& execution) {
+    return std::make_unique<BodyGrains>(arguments.input, arguments.job.smallest_body, execution);
+  });
+}
+
+/// Returns the call without what only a mesh or only a volume has. Throws Error for a wrong call.
+ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
+  check_format(arguments.job.format);
+  check_volume_options(arguments.job.volume);
+  if (same_file(arguments.input, arguments.folder)) {
+    refuse("\"" + arguments.input + "\" is the input itself. Give an output folder.");
+  }
+  const auto only_for_conforming = [&](bool is_given, const std::string& option) {
+    if (!is_given || arguments.conforming) return;
+    refuse(option + " is only for " + mention(conforming_option) + ".");
+  };
+  only_for_conforming(arguments.walls.edge_length > 0.0, mention(edge_length_option));
+  only_for_conforming(arguments.walls.nodes > 0, mention(wall_nodes_option));
+  only_for_conforming(!arguments.tetrahedra.files.empty(), "--tetrahedra");
+  check_conforming_options(arguments.walls);
+  check_tetrahedra_arguments(arguments.tetrahedra);
+  if (arguments.conforming && (is_mesh || arguments.shard.count > 1)) {
+    refuse(mention(conforming_option) + " takes a whole volume of labels at once.");
+  }
+  const std::string& smallest = arguments.smallest;
+  const bool is_share = !smallest.empty() && smallest.back() == '%';
+  if (!smallest.empty() && is_share != is_mesh) {
+    refuse(is_mesh ? "The smallest body of a mesh is a part of its largest. Give a %: " +
+                         mention("smallest", "0.1%") + "."
+                   : "The smallest grain of a volume is a number of voxels. Give it without %: " +
+                         mention("smallest", "100") + ".");
+  }
+  if (is_share) {
+    const std::string number = smallest.substr(0, smallest.size() - 1);
+    arguments.job.smallest_body = from_typed(number, smallest_body_option);
+  } else if (!smallest.empty()) {
+    arguments.job.volume.smallest = from_typed(smallest, smallest_option);
+  }
+  if (is_mesh) arguments.job.table = "bodies";
+  return arguments;
+}
+
+CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
+  CLI::App& app = add_command(
+      program,
+      {"extract",
+       "Write a mesh of each grain of a CT volume, or of each body of a mesh",
+       {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
+        "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --conforming --edge-length 4"},
+       "OUT gets one mesh per label or body, such as 12.ply, and labels.csv or bodies.csv "
+       "with the\nstate of each. The same call continues after an interruption. wscvt "
+       "batch remeshes the\ngrains of a volume, and with --parts the bodies of a mesh.",
+       true,
+       true});
+  add_file_argument(
+      app, "input", arguments.input,
+      "Labels: .tif, .nrrd, .mhd, .vti, .vtk, .nii, .npy, .npz, .h5, .mat, a folder of "
+      ".tif or .png slices, or the .json beside a .raw. Or a mesh: .ply, .stl and others")
+      ->required();
+  add_output(app, "output", arguments.folder, "Output folder", "OUT");
+  add_volume_arguments(app, arguments.job.volume, "Options");
+  app.remove_option(app.get_option("--smallest"));
+  add_typed(app, "--smallest",
+            [&arguments](std::string_view text) { arguments.smallest = std::string(text); })
+      ->description(
+          "Smallest grain: voxels of a volume, or % of a mesh's largest body, as 0.1%. "
+          "Smaller ones, and open surfaces, are only listed. Default: 100, or 0%")
+      ->type_name("N");
+  app.add_flag("--conforming", arguments.conforming,
+               help_of(arguments.conforming, conforming_option));
+  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
+  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option);
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "conforming grains");
+  add_format_argument(app, arguments.job.format);
+  add_shard_argument(app, arguments.shard);
+  add_threads_argument(app, arguments.threads);
+  add_quiet_argument(app, arguments.quiet);
+  for (const char* name : {"--smoothing", "--background", "--at-border", "--channel", "--time",
+                           "--array", "--shard", "--threads", "--quiet"}) {
+    app.get_option(name)->group(finer_settings);
+  }
+  return app;
+}
+
+int run(const ExtractArguments& given) {
+  const bool is_mesh = !is_volume(given.input) && is_mesh_file(given.input);
+  const ExtractArguments arguments = checked([&] {
+    if (is_mesh) check_mesh_input(given.input);
+    ExtractArguments call = checked_call(given, is_mesh);
+    if (!is_mesh && !is_volume(call.input)) open_volume(call.input);  // throws its error
+    return call;
+  });
+  if (!arguments.quiet) check_writable("/dev/stdout");
+  JoinedGrains grains(arguments.shard);
+  if (is_mesh) {
+    std::unique_ptr<BodyGrains> bodies = open_bodies(arguments);
+    print_warnings(bodies->warnings());
+    grains.add(std::move(bodies));
+  } else {
+    auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
+    print_notes(*labels, "wscvt extract " + arguments.input + " " + arguments.folder,
+                arguments.quiet);
+    if (arguments.conforming) return run_conforming(arguments, *labels);
+    grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
+  }
+  const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);
+  const JobEnd end = run_job(job, grains, arguments.threads, arguments.quiet);
+  if (end.was_cancelled()) return 128 + noted_signal();
+  print({job.shard.count > 1 ? end_line(job, end) : write_census(arguments.job, job, grains)},
+        arguments.quiet);
+  return end.failed == 0 && !is_much_left_out(grains.left_out()) ? Done : SomeFailed;
+}
+
+}  // namespace
+
+Command extract_command(CLI::App& program) { return make_command<ExtractArguments>(program); }
+
+}  // namespace wscvt::program

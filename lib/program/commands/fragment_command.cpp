@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <CLI/App.hpp>
+#include <charconv>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "program/arguments/common_arguments.h"
+#include "program/arguments/output_paths.h"
+#include "program/arguments/simulation_arguments.h"
+#include "program/call/command.h"
+#include "program/call/exit_code.h"
+#include "program/commands/commands.h"
+#include "program/terminal/work.h"
+#include "toolbox/exchange/fragment_files.h"
+#include "toolbox/exchange/part_files.h"
+#include "toolbox/fragment/fragment_options.h"
+#include "toolbox/job/grain_job.h"
+#include "toolbox/sample/given_sizes.h"
+#include "toolbox/sample/grain_grower.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/remesh.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// `wscvt fragment`: divides a grain into fragments that fill it.
+struct FragmentArguments {
+  std::string grain;
+  std::string folder;
+  std::string format = "ply";
+  FragmentOptions options;
+  std::string sizes;              ///< file of a size curve; empty: about equal
+  std::vector<std::string> near;  ///< points, "x,y,z"
+  int nodes = 0;                  ///< of each fragment's remesh; 0: its own surface
+  double density = 1.0;
+  TetrahedraArguments tetrahedra;
+  CommonArguments common;
+};
+
+namespace fs = std::filesystem;
+
+constexpr NumberOption<int> fragment_nodes_option = {
+    "nodes",    "number of nodes",
+    0,          1000000,
+    Ends::Both, "of a remesh of each fragment, whose walls are then its own. 0: no remesh"};
+
+Vector3 point_of(const std::string& text) {
+  Vector3 point;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [rest, error] = std::from_chars(at, end, point[axis]);
+    const bool is_last = axis == 2;
+    if (error != std::errc() || (is_last ? rest != end : rest == end || *rest != ',')) {
+      refuse("\"" + text + "\" is not a point. Give --near three numbers, as 1.5,0,-2.");
+    }
+    at = rest + (is_last ? 0 : 1);
+  }
+  return point;
+}
+
+FragmentOptions options_of(const FragmentArguments& arguments) {
+  FragmentOptions options = arguments.options;
+  if (!arguments.sizes.empty()) {
+    options.volumes = fragment_volumes(read_given_sizes(arguments.sizes), options.count);
+  }
+  for (const std::string& text : arguments.near) options.near.push_back(point_of(text));
+  check_options(options);
+  return options;
+}
+
+/// Replaces the meshes by remeshes. Throws Error, naming the fragment.
+void remesh_each(Fragments& fragments, int nodes, const Execution& execution) {
+  RemeshOptions options;
+  options.node_count = nodes;
+  const auto count = static_cast<double>(fragments.list.size());
+  for (std::size_t k = 0; k < fragments.list.size(); ++k) {
+    const auto place = static_cast<double>(k);
+    IndexedMesh& mesh = fragments.list[k].mesh;
+    try {
+      mesh = remesh(std::move(mesh), options, execution.part(place / count, (place + 1.0) / count))
+                 .mesh;
+    } catch (const Error& error) {
+      if (error.code() == ErrorCode::Cancelled) throw;
+      throw Error(error.code(), "Fragment " + std::to_string(k + 1) + ": " + error.what());
+    }
+  }
+}
+
+CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
+  CLI::App& app = add_command(
+      program,
+      {"fragment",
+       "Divide a grain into fragments that fill it, for breakage",
+       {"grain.ply -k 20 -o fragments", "grain.ply -k 50 -o fragments --near 0,0,1.2 --format obj",
+        "grain.ply -k 100 -o fragments --sizes sieve.csv",
+        "grain.ply -k 20 -o fragments -n 200 --format shp"},
+       "OUT gets fragment_1.ply to fragment_K.ply, fragments.csv, and contacts.csv with the area, "
+       "centre\nand normal of each wall. Two fragments have the same triangles on their wall. "
+       "Remesh a dense\nscan first: the fragments keep all points of the surface."});
+  add_file_argument(app, "grain", arguments.grain, mesh_argument_text("Grain", MeshUse::Read))
+      ->required();
+  add_folder_argument(app, arguments.folder);
+  add_number(app, "-k,--count", arguments.options.count, fragment_count_option);
+  add_file_argument(app, "--sizes", arguments.sizes,
+                    "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
+                    "Its sizes are scaled to the grain. Default: about equal volumes");
+  app.add_option("--near", arguments.near,
+                 "Smaller fragments near this point, such as a contact; coordinates as 1.5,0,-2. "
+                 "May be given more than once")
+      ->type_name("X,Y,Z")
+      ->allow_extra_args(false);
+  add_number(app, "--seed", arguments.options.seed, sample_seed_option);
+  add_number(app, "-n,--nodes", arguments.nodes, fragment_nodes_option);
+  app.add_option("--format", arguments.format,
+                 "Ending of the fragments' files: that of a mesh, urdf, xml (MuJoCo) or shp "
+                 "(Rockable, exaDEM). Default: ply")
+      ->type_name("NAME");
+  add_number(app, "--density", arguments.density, parts_density_option);
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "the fragments");
+  add_threads_argument(app, arguments.common.threads);
+  app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
+  return app;
+}
+
+int run(const FragmentArguments& arguments) {
+  const fs::path folder = arguments.folder;
+  std::vector<std::string> files;
+  const FragmentOptions options = checked([&] {
+    check_mesh_input(arguments.grain);
+    check_fragment_format(arguments.format);
+    require_in_range(arguments.nodes, fragment_nodes_option);
+    require_in_range(arguments.density, parts_density_option);
+    check_tetrahedra_arguments(arguments.tetrahedra);
+    const FragmentOptions read = options_of(arguments);
+    for (int k = 1; k <= read.count; ++k) {
+      files.push_back("fragment_" + std::to_string(k) + "." + arguments.format);
+      const std::string path = (folder / files.back()).string();
+      if (!same_file(path, arguments.grain)) continue;
+      refuse("\"" + path + "\" is the grain itself. Give another folder.");
+    }
+    return read;
+  });
+  Work work(arguments.common.threads, arguments.common.quiet);
+  const double cut_share = arguments.nodes > 0 ? 0.3 : 1.0;
+  MeshFile file = read_mesh_file(arguments.grain, work.execution().part(0.0, reading_share));
+  Fragments fragments = fragment_grain(std::move(file.mesh), options,
+                                       work.execution().part(reading_share, cut_share));
+  if (arguments.nodes > 0) {
+    remesh_each(fragments, arguments.nodes, work.execution().part(cut_share, 1.0));
+  }
+  require_no_job(arguments.folder);
+  const MadeFolder made(arguments.folder);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {
+      write_fragment(path, fragments.list[k].mesh, fragments.list[k].mass, arguments.density);
+    });
+  }
+  work.write((folder / "fragments.csv").string(), [&](const std::string& path, const Execution&) {
+    write_file(path, fragments_csv(fragments, files));
+  });
+  work.write((folder / "contacts.csv").string(), [&](const std::string& path, const Execution&) {
+    write_file(path, fragment_contacts_csv(fragments));
+  });
+  std::vector<Sentence> warnings(file.warnings.begin(), file.warnings.end());
+  warnings.insert(warnings.end(), fragments.warnings.begin(), fragments.warnings.end());
+  std::vector<std::string> lines = fragment_lines(fragments);
+  const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
+    std::vector<IndexedMesh> meshes;
+    std::vector<std::string> names;
+    for (const Fragment& one : fragments.list) {
+      meshes.push_back(one.mesh);
+      names.push_back(std::to_string(names.size() + 1));
+    }
+    return tetrahedra_in(meshes, "fragment", names, arguments.tetrahedra.edge, work.execution());
+  });
+  lines.insert(lines.end(), filled.begin(), filled.end());
+  work.print(warnings, lines);
+  return Done;
+}
+
+}  // namespace
+
+Command fragment_command(CLI::App& program) { return make_command<FragmentArguments>(program); }
+
+}  // namespace wscvt::program

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "program/terminal/work.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "program/call/exit_code.h"
+#include "program/terminal/terminal.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
+
+namespace wscvt::program {
+
+namespace {
+
+/// Returns the local date, "2026-11-21"; empty if the clock fails.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  char text[sizeof "2026-11-21"];
+  if (::localtime_r(&now, &local) == nullptr) return "";
+  return std::strftime(text, sizeof text, "%Y-%m-%d", &local) == 0 ? "" : text;
+}
+
+/// Throws Cancelled with the files written, which the library's message does not contain.
+[[noreturn]] void cancel(const std::string& stage, const std::vector<std::string>& written) {
+  std::string sentence = (stage.empty() ? "Cancelled" : "Cancelled during: " + stage) + ". ";
+  if (written.empty()) {
+    sentence += "Nothing was written.";
+  } else {
+    sentence += "Written before that:";
+    for (const std::string& path : written) {
+      sentence += (&path == &written.front() ? " \"" : ", \"") + path + "\"";
+    }
+    sentence += ".";
+  }
+  throw Error(ErrorCode::Cancelled, sentence);
+}
+
+}  // namespace
+
+Work::Work(int threads, bool quiet)
+    : quiet_(quiet),
+      line_(!quiet),
+      execution_(threads, [this](double fraction, const std::string& stage) {
+        line_.show(fraction, stage);
+        if (noted_signal() != 0) cancel(stage, written_);
+        return true;
+      }) {
+  if (!quiet_) check_writable("/dev/stdout");
+  note_signals();
+}
+
+void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines) {
+  line_.clear();
+  print_warnings({warnings.begin(), warnings.end()});
+  program::print(lines, quiet_);
+}
+
+void Work::print_log(const RemeshResult& result, bool verbose) {
+  std::vector<std::string> lines = verbose ? report_lines(result) : summary_lines(result);
+  // Warnings are printed once, before.
+  lines.erase(
+      std::remove_if(lines.begin(), lines.end(),
+                     [](const std::string& line) { return line.rfind("Warning ", 0) == 0; }),
+      lines.end());
+  for (const std::string& path : written_) {
+    lines.push_back((&path == &written_.front() ? "Files       \"" : "            \"") + path +
+                    "\"");
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
+  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  lines.push_back(verdict_line(result));
+  print(result.warnings, lines);
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
+  }
+}
+
+void print(const std::vector<std::string>& lines, bool quiet) {
+  if (quiet) return;
+  std::string text;
+  for (const std::string& line : lines) text += readable(line) + "\n";
+  write_file("/dev/stdout", text);
+}
+
+ReportOrigin origin_of(const std::string& source) { return {source, today()}; }
+
+namespace {
+
+/// "2 h 5 min", "3 min 20 s", "7 s".
+std::string duration_text(double seconds) {
+  const auto all = std::llround(seconds);
+  if (all >= 3600)
+    return std::to_string(all / 3600) + " h " + std::to_string(all % 3600 / 60) + " min";
+  if (all >= 60) return std::to_string(all / 60) + " min " + std::to_string(all % 60) + " s";
+  return std::to_string(all) + " s";
+}
+
+/// Returns the text of the line on the terminal.
+std::string progress_text(std::size_t done, std::size_t count, std::size_t failed, double rate) {
+  std::string text = std::to_string(done) + " of " + std::to_string(count) + " grains";
+  if (failed > 0) text += ", " + std::to_string(failed) + " failed";
+  if (rate > 0.0) {
+    text += ", " + format_number(rate, 3) + " per second, " +
+            duration_text(static_cast<double>(count - done) / rate) + " left";
+  }
+  return text;
+}
+
+}  // namespace
+
+JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const JobHost&)>& run) {
+  using Clock = std::chrono::steady_clock;
+  note_signals();
+  ProgressLine line(!quiet);
+  const Clock::time_point start = Clock::now();
+  JobHost host;
+  host.threads = threads;
+  host.progress = [&](const JobProgress& now) {
+    const std::chrono::duration<double> seconds = Clock::now() - start;
+    const double rate = static_cast<double>(now.done - now.first) / seconds.count();
+    const double share =
+        now.count == 0 ? 1.0 : static_cast<double>(now.done) / static_cast<double>(now.count);
+    line.show(share, progress_text(now.done, now.count, now.failed, rate));
+    return true;
+  };
+  host.is_cancelled = [] { return noted_signal() != 0; };
+  host.failed = [&](const std::string& grain, const std::string& error) {
+    line.clear();
+    std::fprintf(stderr, "Failed: %s: %s\n", readable(grain, "").c_str(), readable(error).c_str());
+  };
+  JobEnd end = run(host);
+  line.clear();
+  if (end.was_cancelled()) {
+    std::fprintf(stderr, "Cancelled after %zu of %zu grains. %s\n", end.done, end.count,
+                 end.when_stopped.c_str());
+  }
+  return end;
+}
+
+JobEnd run_grains(const GrainRun& run, int threads, bool quiet) {
+  return on_terminal(threads, quiet,
+                     [&](const JobHost& host) { return wscvt::run_grains(run, host); });
+}
+
+JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet) {
+  return on_terminal(threads, quiet, [&](const JobHost& host) {
+    return checked([&] { return wscvt::run_job(job, grains, host); });
+  });
+}
+
+std::string end_line(const GrainJob& job, const JobEnd& end) {
+  const JobFolder folder = folders_of(job).front();
+  return std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
+         " failed: " + folder.file(job.tables.front().name, ".csv");
+}
+
+}  // namespace wscvt::program

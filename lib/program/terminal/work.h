@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "program/terminal/terminal.h"
+#include "toolbox/job/grain_job.h"
+#include "wscvt/base/execution.h"
+#include "wscvt/report/report.h"
+
+namespace wscvt::program {
+
+/// Fraction of the progress that is given to reading.
+inline constexpr double reading_share = 0.05;
+
+/// The work of a command: shows its progress on a terminal. A signal cancels it, with a message
+/// that lists the files written.
+class Work {
+ public:
+  /// Starts to note signals. Throws wscvt::Error if the report cannot be printed.
+  Work(int threads, bool quiet);
+
+  /// Returns the Execution of the work before the first file is written.
+  const Execution& execution() const { return execution_; }
+
+  /// Calls write_it(path, execution), which makes and writes one file. Throws its exceptions, and
+  /// wscvt::Error(Cancelled).
+  template <class Write>
+  void write(const std::string& path, const Write& write_it) {
+    const Execution writing = execution_.part(1.0, 1.0);
+    writing.report(1.0, "Writing \"" + path + "\"");
+    write_it(path, writing);
+    written_.push_back(path);
+  }
+
+  /// Clears the progress line. Prints warnings to the standard error, and the lines to the standard
+  /// output unless quiet.
+  void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
+
+  /// Prints the log of a remesh: the warnings, a summary or the whole report, the files written,
+  /// the seconds since the work began, and the verdict.
+  void print_log(const RemeshResult& result, bool verbose);
+
+ private:
+  bool quiet_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  ProgressLine line_;
+  std::vector<std::string> written_;
+  Execution execution_;
+};
+
+/// Returns the result of `work`, with a progress line on a terminal unless quiet. A signal cancels.
+template <class DoWork>
+auto with_progress(bool quiet, const DoWork& work) {
+  note_signals();
+  ProgressLine line(!quiet);
+  return work(Execution(1, [&](double fraction, const std::string& stage) {
+    line.show(fraction, stage);
+    return noted_signal() == 0;
+  }));
+}
+
+/// Prints warnings to the standard error.
+void print_warnings(const std::vector<std::string>& warnings);
+
+/// Prints lines to the standard output, unless quiet.
+void print(const std::vector<std::string>& lines, bool quiet);
+
+/// Returns the origin for a report: the source and today's date.
+ReportOrigin origin_of(const std::string& source);
+
+// Work on many grains, with a progress line on a terminal unless quiet. Failures are printed to the
+// standard error, and so is a run that a signal cancelled. `threads`: 0 uses all.
+
+JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const JobHost&)>& run);
+
+JobEnd run_grains(const GrainRun& run, int threads, bool quiet);
+
+/// Throws WrongCall if files would replace each other, or the folder is of another call.
+JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet);
+
+/// "40 grains, 1 failed: out/grains.csv".
+std::string end_line(const GrainJob& job, const JobEnd& end);
+
+}  // namespace wscvt::program
