@@ -52,7 +52,7 @@ done
 
 # CalculiX presses a ball. Its force is that of Hertz but for the rough plates and the linear elements.
 "$program" create ellipsoid ball.ply -q -n 4000
-"$program" remesh -q ball.ply ball_500.ply -n 500 --tetrahedra ball.inp --tetrahedra-edge 0.3
+"$program" remesh -q ball.ply ball_500.ply -n 500 --tetrahedra ball.inp --edge-length 0.3
 "$python" "$here/../../lib/examples/compression.py" ball.inp --by 5 | tee compression.log
 awk '{ hertz = 4 / 3 / (1 - 0.25 ^ 2) * 0.05 ^ 1.5
        exit !($2 > hertz && $2 < 1.5 * hertz && ($2 - $7) ^ 2 < (1e-6 * $2) ^ 2) }' compression.log

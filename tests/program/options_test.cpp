@@ -79,7 +79,7 @@ TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
   std::set<std::string> tested = {
       "help",        "help-all",    "threads", "coefficients", "quiet",          "report",
       "node-table",  "sdf",         "frame",   "verbose",      "size",           "scale",
-      "sdf-surface", "sdf-spacing", "output",  "tetrahedra",   "tetrahedra-edge"};
+      "sdf-surface", "sdf-spacing", "output",  "tetrahedra",   "edge-length"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -246,7 +246,7 @@ TEST_F(ProgramOptions, TetrahedraAreWrittenInEachFormAndLeaveTheRemeshAsItIs) {
   ASSERT_EQ(run("remesh scan.ply plain.ply -q -n 60 -d 6").exit_code, 0);
   const Outcome filled =
       run("remesh scan.ply filled.ply -n 60 -d 6 --tetrahedra body.vtu --tetrahedra body.msh "
-          "--tetrahedra body.inp --tetrahedra-edge 0.5");
+          "--tetrahedra body.inp --edge-length 0.5");
   ASSERT_EQ(filled.exit_code, 0) << filled.errors;
   EXPECT_NE(filled.output.find("etrahedra"), std::string::npos) << filled.output;
   EXPECT_EQ(content("filled.ply"), content("plain.ply"));
@@ -254,7 +254,7 @@ TEST_F(ProgramOptions, TetrahedraAreWrittenInEachFormAndLeaveTheRemeshAsItIs) {
   EXPECT_NE(content("body.vtu").find("UnstructuredGrid"), std::string::npos);
   EXPECT_NE(content("body.msh").find("$Elements"), std::string::npos);
   EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra body.stl").exit_code, 2);
-  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --tetrahedra-edge -1").exit_code,
+  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --edge-length -1").exit_code,
             2);
   EXPECT_FALSE(exists("bad.ply"));
 }

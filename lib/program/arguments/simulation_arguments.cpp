@@ -15,6 +15,9 @@ void add_tetrahedra_arguments(CLI::App& app, TetrahedraArguments& arguments,
                      "May be given more than once")
       ->type_name("FILE")
       ->allow_extra_args(false);
+}
+
+void add_tetrahedra_edge(CLI::App& app, TetrahedraArguments& arguments) {
   add_number(app, "--" + std::string(tetrahedra_edge_option.key), arguments.edge,
              tetrahedra_edge_option)
       ->group(finer_settings);
@@ -70,6 +73,7 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
             "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
             ".vti is for ParaView, .json is a level set for NetDEM");
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the remesh");
+  add_tetrahedra_edge(app, arguments.tetrahedra);
   add_options(app, arguments.options);
 }
 

@@ -20,10 +20,13 @@ struct TetrahedraArguments {
   double edge = 0.0;               ///< longest wanted, length; 0: as the surface's
 };
 
-/// Adds the arguments. Parsing changes `arguments`, which must outlive `app`. `filled`: what is
-/// filled.
+/// Adds the argument of the files. Parsing changes `arguments`, which must outlive `app`. `filled`:
+/// what is filled.
 void add_tetrahedra_arguments(CLI::App& app, TetrahedraArguments& arguments,
                               const std::string& filled);
+
+/// Adds the argument of the edge, where no other sets the edges.
+void add_tetrahedra_edge(CLI::App& app, TetrahedraArguments& arguments);
 
 /// Throws wscvt::Error for names with unknown endings, and if Gmsh is needed and not there.
 void check_tetrahedra_arguments(const TetrahedraArguments& arguments);

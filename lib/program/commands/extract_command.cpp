@@ -88,7 +88,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
     std::vector<std::string> names;
     for (const Label label : labels) names.push_back(std::to_string(label));
-    return tetrahedra_in(meshes, "grain", names, arguments.tetrahedra.edge, work.execution());
+    return tetrahedra_in(meshes, "grain", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
   const Sentence warning = intersection_warning(result, labels);

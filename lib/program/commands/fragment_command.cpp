@@ -125,6 +125,7 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
       ->type_name("NAME");
   add_number(app, "--density", arguments.density, parts_density_option);
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the fragments");
+  add_tetrahedra_edge(app, arguments.tetrahedra);
   add_threads_argument(app, arguments.common.threads);
   app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
   return app;

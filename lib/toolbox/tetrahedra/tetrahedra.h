@@ -33,7 +33,7 @@ struct TetrahedralMesh {
 };
 
 inline constexpr NumberOption<double> tetrahedra_edge_option = {
-    "tetrahedra-edge",
+    "edge-length",
     "longest wanted edge of tetrahedra",
     0.0,
     std::numeric_limits<double>::infinity(),
