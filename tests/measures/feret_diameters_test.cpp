@@ -3,18 +3,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
 
 #include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {
 namespace {
 
 FeretDiameters diameters(const IndexedMesh& mesh) {
-  return feret_diameters(mesh, mesh.points, Execution(1));
+  return feret_diameters(mesh, {mesh.points, {}}, Execution(1));
 }
 
 TEST(FeretDiameters, OfAnEllipsoidAreItsAxes) {
@@ -79,9 +84,48 @@ TEST(FeretDiameters, OfManyPointsAreThoseOfAll) {
   EXPECT_NEAR(d.smallest, 2.0, 2e-3);
 }
 
+// The narrowest width of a polyhedron is across a face or between two edges. All pairs are tried.
+TEST(FeretDiameters, SmallestIsTheNarrowestOfAllFacesAndPairsOfEdges) {
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    std::mt19937_64 random(test::announced(3100 + k));
+    std::normal_distribution<double> normal;
+    std::vector<Vector3> points;
+    for (int i = 0; i < 70; ++i) {
+      const Vector3 p(normal(random), normal(random), normal(random));
+      points.push_back(Vector3(1.0, 0.9, 0.8).cwiseProduct(p.normalized()));
+    }
+    const IndexedMesh hull = convex_hull(points);
+    std::vector<Vector3> edges;
+    double narrowest = std::numeric_limits<double>::infinity();
+    const auto try_across = [&](const Vector3& direction) {
+      if (!(direction.norm() > 1e-9)) return;
+      const Vector3 unit = direction.normalized();
+      double low = unit.dot(points[0]);
+      double high = low;
+      for (const Vector3& p : points) {
+        low = std::min(low, unit.dot(p));
+        high = std::max(high, unit.dot(p));
+      }
+      narrowest = std::min(narrowest, high - low);
+    };
+    for (const Triangle& t : hull.triangles) {
+      const Vector3 a = hull.points[t[1]] - hull.points[t[0]];
+      const Vector3 b = hull.points[t[2]] - hull.points[t[1]];
+      try_across(a.cross(b));
+      edges.push_back(a);
+    }
+    for (const Triangle& t : hull.triangles) edges.push_back(hull.points[t[2]] - hull.points[t[1]]);
+    for (const Vector3& a : edges) {
+      for (const Vector3& b : edges) try_across(a.cross(b));
+    }
+    const double told = feret_diameters(hull, hull, Execution(1)).smallest;
+    EXPECT_LT(std::abs(told / narrowest - 1.0), 1e-4) << k;
+  }
+}
+
 TEST(FeretDiameters, RefuseWhatHasNone) {
-  EXPECT_ERROR(feret_diameters(test::box(1, 1, 1), {{0, 0, 0}}, Execution(1)), InvalidInput);
-  EXPECT_ERROR(feret_diameters({}, test::box(1, 1, 1).points, Execution(1)), InvalidInput);
+  EXPECT_ERROR(feret_diameters(test::box(1, 1, 1), {{{0, 0, 0}}, {}}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(feret_diameters({}, test::box(1, 1, 1), Execution(1)), InvalidInput);
 }
 
 TEST(MeanCurvatureIntegral, OfABoxIsPiTimesTheSumOfItsEdges) {

@@ -607,6 +607,34 @@ TEST(Remesh, ANumberOfNodesThatDoesNotReachALongBodyIsRefusedWithOneThatDoes) {
   EXPECT_EQ(remesh(test::sphere(3), options, Execution(1)).mesh.points.size(), 4U);
 }
 
+TEST(Remesh, FewNodesOfAThinBodyAreRefusedWithANumberThatFollowsIt) {
+  const std::vector<IndexedMesh> bodies = {
+      test::subdivided(test::box(10.0, 8.0, 0.3), 3),
+      test::scaled(test::sphere(4), Vector3(1.0, 1.0, 0.02)),
+      test::scaled(test::sphere(4), Vector3(1.0, 0.25, 0.08)),
+  };
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (const int nodes : {4, 5, 6}) {
+      SCOPED_TRACE(::testing::Message() << "body " << k << ", " << nodes << " nodes");
+      RemeshOptions options;
+      options.node_count = nodes;
+      std::string sentence;
+      try {
+        remesh(bodies[k], options, Execution(1));
+      } catch (const Error& error) {
+        sentence = error.what();
+      }
+      const std::size_t at = sentence.find(" were tried and are enough.");
+      ASSERT_NE(at, std::string::npos) << sentence;
+      options.node_count = std::stoi(sentence.substr(sentence.rfind(' ', at - 1)));
+      const RemeshResult enough = remesh(bodies[k], options, Execution(1));
+      EXPECT_LT(enough.remesh.area, 2.0 * enough.scan.area) << sentence;
+      // 1,000 samples of the scan were below half a radius.
+      EXPECT_LT(enough.rms_distance, 0.7 * equivalent_radius(enough.scan.volume)) << sentence;
+    }
+  }
+}
+
 TEST(Remesh, TellsOfTrianglesOfTheScanThatIntersectAtAnyNumberOfNodes) {
   IndexedMesh dented = test::lumpy(4);
   const Vector3 place = dented.points[100];

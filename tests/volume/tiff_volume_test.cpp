@@ -250,6 +250,8 @@ TEST_F(TiffVolume, ReadsOmeInEveryOrderOfDimensions) {
     for (const auto& [tags, written] : forms) {
       TiffPages stack = as();
       stack.text = head + tags + end;
+      stack.resolution = 1.0;  // of no meaning beside the text's, as tifffile writes it
+      stack.resolution_unit = RESUNIT_NONE;
       write_tiff(path("a.ome.tif"), stack, *written);
       expect_refused("a.ome.tif", {"2 channels"});
       VolumeChoice choice = channel(2);

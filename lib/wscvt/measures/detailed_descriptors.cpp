@@ -44,7 +44,7 @@ DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
   execution.report(0.2, "Turning the bounding box");
   result.box_axes = oriented_box_axes(hull.points, execution.part(0.2, 0.25));
   result.box_ratios = form_ratios(result.box_axes);
-  result.feret = feret_diameters(mesh, hull.points, execution.part(0.25, 0.3));
+  result.feret = feret_diameters(mesh, hull, execution.part(0.25, 0.3));
   result.mean_curvature_integral = mean_curvature_integral(mesh, execution);
   result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.7));
 

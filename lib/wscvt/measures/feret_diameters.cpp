@@ -180,10 +180,33 @@ double longest_chord(const std::vector<Vector2>& ends, const Vector2& along) {
   return longest;
 }
 
+/// Returns the directions across the hull's three faces with the smallest widths. The valleys
+/// between the many edges of a dense hull are narrower than the lattice of a search.
+std::vector<DirectionMinimum> narrowest_faces(const IndexedMesh& hull,
+                                              const std::vector<Vector3>& extremes,
+                                              const Execution& execution) {
+  std::vector<DirectionMinimum> faces;
+  for (const Triangle& t : hull.triangles) {
+    execution.report(0.7, diameter_stage);
+    const Vector3& a = hull.points[t[0]];
+    const Vector3 normal = (hull.points[t[1]] - a).cross(hull.points[t[2]] - a);
+    if (!(normal.norm() > 0.0)) continue;
+    faces.push_back({normal.normalized(), width_along(extremes, normal.normalized())});
+  }
+  const std::size_t kept = std::min<std::size_t>(3, faces.size());
+  std::partial_sort(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(kept), faces.end(),
+                    [](const DirectionMinimum& one, const DirectionMinimum& other) {
+                      return one.value < other.value;
+                    });
+  faces.resize(kept);
+  return faces;
+}
+
 }  // namespace
 
-FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector3>& hull,
+FeretDiameters feret_diameters(const IndexedMesh& mesh, const IndexedMesh& hull_mesh,
                                const Execution& execution) {
+  const std::vector<Vector3>& hull = hull_mesh.points;
   if (hull.size() < 4 || mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "A body of " + std::to_string(hull.size()) +
@@ -203,8 +226,14 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector
   const auto width_of = [](const std::vector<Vector3>& some) {
     return [&some](const Vector3& direction) { return width_along(some, direction); };
   };
-  const DirectionMinimum narrowest = smallest_over_directions(
+  DirectionMinimum narrowest = smallest_over_directions(
       width_of(extremes), width_of(extremes), width_of(points), diameter_stage, execution);
+  for (const DirectionMinimum& face :
+       narrowest_faces({points, hull_mesh.triangles}, extremes, execution)) {
+    const DirectionMinimum found = descend(
+        width_of(points), {face.direction, width_along(points, face.direction)}, 0.01, 1e-6);
+    if (found.value < narrowest.value) narrowest = found;
+  }
   result.smallest = width_along(points, narrowest.direction);
 
   const Sections sections(local, (ends.to - ends.from).normalized());

@@ -9,11 +9,12 @@
 
 namespace wscvt {
 
-/// Computes the diameters of a closed mesh whose convex hull has the points `hull`.
+/// Computes the diameters of a closed mesh with its convex hull.
 ///
 /// The largest Feret diameter is exact up to 4,000 points of the hull. For more points, two extreme
 /// points of 2,000 directions are found and moved to the farthest of all points. The smallest is a
-/// minimum over directions (smallest_over_directions), accurate to about 0.1 %. W and T are chords
+/// width across a face of the hull or between two of its edges. It is the best of all faces, and of
+/// directions followed downhill from the best faces and by smallest_over_directions. W and T are chords
 /// between points of the body's surface, as Taylor, Garboczi et al. (2006, "Some properties of
 /// irregular 3-D particles", Powder Technol. 162, 1-15) define them, not widths of its shadow. W is
 /// the longest chord in a plane perpendicular to L (128 planes; the best is then moved). T is the
@@ -22,7 +23,7 @@ namespace wscvt {
 /// within 23 %.
 ///
 /// Throws Error(InvalidInput) for fewer than four points, Error(Cancelled).
-FeretDiameters feret_diameters(const IndexedMesh& mesh, const std::vector<Vector3>& hull,
+FeretDiameters feret_diameters(const IndexedMesh& mesh, const IndexedMesh& hull,
                                const Execution& execution);
 
 /// Returns the integral of the mean curvature (k1 + k2) / 2 over a closed mesh: half the sum over

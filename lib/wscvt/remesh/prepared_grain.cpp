@@ -11,6 +11,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
@@ -151,18 +152,25 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
 
 namespace {
 
+constexpr const char* intersects = "triangles of their mesh intersect";
+
 /// Why a remesh has too few nodes for a thin or long body, as the end of a sentence; empty if it
-/// has not.
+/// has not. A number to recommend must pass even if it is large.
 std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
-                    const IndexedMesh& mesh, const Execution& execution) {
+                    const IndexedMesh& mesh, bool is_recommended, const Execution& execution) {
   if (!(volume_of(mesh, execution) > 0.0)) return "their mesh encloses no volume";
   constexpr std::size_t few = 200;
-  if (mesh.points.size() >= few) return "";
-  if (!self_intersections(mesh, execution).empty()) return "triangles of their mesh intersect";
+  if (mesh.points.size() >= few && !is_recommended) return "";
+  if (!self_intersections(mesh, execution).empty()) return intersects;
   // As published, warnings say that the remesh is another body.
   if (std::get_if<OnScanOptions>(&options.method) == nullptr) return "";
-  // In equivalent radii. A tetrahedron with the volume of a ball is off by 0.17.
-  constexpr double beside = 0.75;
+  // Thin with the scan between its faces: a tetrahedron of a ball has 1.5 times its area.
+  if (describe_shape(mesh, execution).area > 2.0 * grain.scan.shape.area) {
+    return "their mesh reaches beyond it";
+  }
+  // In equivalent radii. A tetrahedron with the volume of a ball is off by 0.17, plates with
+  // too few nodes by 0.55 and more.
+  constexpr double beside = 0.5;
   constexpr std::size_t samples = 1000;
   if (rms_distance(grain.scan.mesh, mesh, samples, execution) > beside) {
     return "their mesh does not reach all of it";
@@ -171,23 +179,25 @@ std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
 }
 
 /// Refuses a number of nodes that is too small for a thin or long body, with one that was tried and
-/// is enough. If none is, refuses only a remesh that encloses nothing.
+/// is enough. If none is, a remesh whose triangles intersect is not refused.
 void refuse_too_few(const PreparedGrain& grain, const RemeshOptions& options,
                     const IndexedMesh& mesh, const Execution& execution) {
-  const std::string reason = too_few(grain, options, mesh, execution);
+  const std::string reason = too_few(grain, options, mesh, false, execution);
   if (reason.empty()) return;
   const auto count = static_cast<int>(mesh.points.size());
   const std::string needs = "So long or thin a body needs more than " + std::to_string(count) +
                             " nodes: " + reason + ". ";
-  for (const int times : {2, 3, 5, 10}) {
-    const Nodes tried = grain.method->place(times * count, execution);
-    if (!too_few(grain, options, tried.mesh, execution).empty()) continue;
-    refuse(needs + std::to_string(times * count) +
-           " were tried and are enough. Use that number or more.");
+  constexpr int most_tried = 5000;
+  int last = count;
+  for (const int times : {2, 3, 5, 10, 20, 50, 100, 200}) {
+    if (times > 10 && times * count > most_tried) break;
+    last = times * count;
+    const Nodes tried = grain.method->place(last, execution);
+    if (!too_few(grain, options, tried.mesh, true, execution).empty()) continue;
+    refuse(needs + std::to_string(last) + " were tried and are enough. Use that number.");
   }
-  if (volume_of(mesh, execution) > 0.0) return;
-  refuse(needs + "Up to " + std::to_string(10 * count) +
-         " were tried and are not enough. Use more.");
+  if (reason == intersects) return;  // as the warnings tell
+  refuse(needs + "Up to " + std::to_string(last) + " were tried and are not enough. Use more.");
 }
 
 }  // namespace
