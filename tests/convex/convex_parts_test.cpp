@@ -138,16 +138,16 @@ TEST(ConvexParts, VolumeExcessAndDistanceOfTheHullOfAnLAreThoseByHand) {
 }
 
 TEST(ConvexParts, MeasuresTellWhatPartsShareAndLeaveOut) {
-  // Two boxes 2 x 1 x 1 that share a third, over a box 3 x 1 x 1 and half a unit more.
+  // Two boxes 2 x 1 x 1 that share a third, over a box 3 x 1 x 1 with .35 and .15 more at its ends.
   const auto box_at = [](double x) {
     return test::moved(test::box(2.0, 1.0, 1.0), 1.0, Vector3(x, 0.0, 0.0));
   };
   const PartsMeasures measures =
       measure_parts({box_at(0.0), box_at(1.0)},
-                    test::moved(test::box(3.5, 1.0, 1.0), 1.0, Vector3(0.75, 0.0, 0.0)));
+                    test::moved(test::box(3.5, 1.0, 1.0), 1.0, Vector3(0.4, 0.0, 0.0)));
   EXPECT_NEAR(measures.shared_volume, 1.0, 0.05);  // a cell's layer on each side
   EXPECT_NEAR(measures.parts_volume + measures.shared_volume, 4.0, 1e-12);
-  EXPECT_NEAR(measures.largest_gap, 0.5, 1e-12);
+  EXPECT_NEAR(measures.largest_gap, 0.35, 1e-12);
   EXPECT_NEAR(measures.grain_volume, 3.5, 1e-12);
 }
 
@@ -272,6 +272,19 @@ TEST(ConvexParts, OfAScanKeepItsVolume) {
     EXPECT_NEAR(result.measures.parts_volume, result.scan.volume, 1e-9) << count;
     EXPECT_NEAR(result.measures.excess_percent(), 0.0, 1e-7) << count;
   }
+}
+
+TEST(ConvexParts, OfAScanStayWhereItIsAndTellItsRepairs) {
+  const IndexedMesh grain = test::moved(test::lumpy(3), 1.0, Vector3(40.0, -30.0, 20.0));
+  RemeshOptions options;
+  options.node_count = 100;
+  const PartsResult alone = make_parts(grain, options, at_most(1, 40), Execution(1));
+  EXPECT_LT(alone.measures.largest_distance, 0.3);  // of a radius of about 1
+  EXPECT_LT(alone.measures.largest_gap, 0.3);
+  const PartsResult both =
+      make_parts(test::joined(grain, test::moved(test::sphere(1), 0.3, Vector3::Zero())), options,
+                 at_most(1, 40), Execution(1));
+  EXPECT_EQ(both.warnings.size(), alone.warnings.size() + 1) << "a body was left out";
 }
 
 TEST(ConvexParts, OfAFileComeBackAsTheComponents) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/count_of.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
@@ -91,6 +92,7 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   const std::vector<Sphere> read = read_clump(path("clump.chrono.csv"));
   EXPECT_LT((read[2].centre - centre).norm(), 1e-12);
   EXPECT_NE(chrono.find("# volume = "), std::string::npos);
+  EXPECT_EQ(test::count_of(chrono.substr(8, chrono.find('\n', 8) - 8), ","), 3U);
 
   const std::vector<double> liggghts = numbers_of(written("clump.multisphere"));
   ASSERT_EQ(liggghts.size(), 12U);
@@ -100,6 +102,14 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_NE(fix.find("nspheres 3 "), std::string::npos) << fix;
   EXPECT_NE(fix.find("file \"clump.multisphere\" "), std::string::npos) << fix;
   EXPECT_NE(fix.find("fix clump_clump all"), std::string::npos) << fix;
+  const double volume = mass_properties(made_clump().scan).volume;
+  const std::pair<const char*, double> variables[] = {
+      {"mass", volume}, {"xx", moments[0]}, {"yy", moments[1]}, {"zz", moments[2]}};
+  for (const auto& [name, value] : variables) {
+    const std::string begin = std::string("variable clump_") + name + " equal ${density}*";
+    ASSERT_NE(fix.find(begin), std::string::npos) << fix;
+    EXPECT_EQ(std::stod(fix.substr(fix.find(begin) + begin.size())), value) << name;
+  }
 
   written("clump.mclump");
   const std::vector<double> mercury = numbers_of(content_of(path("clump.mclump/Clump/Clump.txt")));

@@ -63,7 +63,7 @@ TEST(TemplateFiles, GiveLiggghtsTheWeightsByMass) {
             std::string::npos)
       << input;
   EXPECT_EQ(input.find("b.spheres"), std::string::npos);
-  EXPECT_EQ(input.find("SIDE"), std::string::npos);
+  EXPECT_NE(input.find("variable side equal 16\n"), std::string::npos) << "8 of the largest grain";
   EXPECT_ERROR(liggghts_template_input({}, {1.0}), InvalidInput);
   EXPECT_ERROR(liggghts_template_input({{"a.spheres", 7, 1.0}}, {}), InvalidInput);
 }

@@ -117,6 +117,43 @@ TEST(CellComplex, JoinsTheSmallerLegOfARingToItsNeighbour) {
   EXPECT_EQ(complex.join_pieces().pieces, 0U) << "now each cell is one piece";
 }
 
+/// Area of the walls; of those between two cells alone if they are given.
+double wall_area(const CellComplex& complex, std::int32_t one = -1, std::int32_t other = -1) {
+  double area = 0.0;
+  for (const CellComplex::Face& face : complex.faces()) {
+    if (face.edges.empty() || !face.is_wall()) continue;
+    if (one >= 0 && std::minmax(face.front, face.back) != std::minmax(one, other)) continue;
+    area += 0.5 *
+            doubled_area(complex.points(), face.edges.data(), face.edges.data() + face.edges.size())
+                .norm();
+  }
+  return area;
+}
+
+TEST(CellComplex, JoinsAPieceBehindItsLargerWall) {
+  const IndexedMesh ring = test::torus(1.0, 0.25, 40);
+  for (const double side : {-1.0, 1.0}) {
+    CellComplex complex =
+        cut(ring, {{side * -0.9, 0.1, 0.0}, {0.0, 0.2, 0.0}, {side * 0.7, 0.6, 0.0}});
+    const double before = wall_area(complex);
+    ASSERT_EQ(complex.join_pieces().pieces, 1U);
+    // The piece's wall to its new cell is gone; its other one is now between the outer cells.
+    EXPECT_GT(before - wall_area(complex), wall_area(complex, 0, 2)) << side;
+    EXPECT_GT(wall_area(complex, 0, 2), 0.0);
+  }
+}
+
+TEST(CellComplex, TellsTheVolumeOfAllPiecesThatMoved) {
+  const IndexedMesh ring = test::torus(1.0, 0.25, 40);
+  CellComplex complex =
+      cut(ring, {{-0.9, 0.1, 0.0}, {-0.3, 0.15, 0.0}, {0.3, 0.2, 0.0}, {0.9, 0.3, 0.0}});
+  const std::vector<double> before = complex.volumes();
+  const CellComplex::Moved moved = complex.join_pieces();
+  ASSERT_EQ(moved.pieces, 2U);
+  const std::vector<double> after = complex.volumes();
+  EXPECT_NEAR(before[1] - after[1] + before[2] - after[2], moved.volume, 1e-12);
+}
+
 TEST(CellComplex, RefusesOpenMeshesAndEqualSites) {
   IndexedMesh open = test::lumpy(1);
   open.triangles.pop_back();

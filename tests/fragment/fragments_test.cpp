@@ -14,7 +14,9 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "toolbox/fragment/fragment_sites.h"
 #include "toolbox/sample/given_sizes.h"
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -45,34 +47,44 @@ std::pair<std::array<Corner, 3>, bool> by_corners(const IndexedMesh& mesh, const
 }
 
 /// What a plain comparison of all triangles finds.
+struct Wall {
+  double area = 0.0;
+  Vector3 moment = Vector3::Zero();   ///< centroid times area
+  Vector3 outward = Vector3::Zero();  ///< area vector, out of the first fragment
+};
 struct Walls {
-  std::map<std::array<std::size_t, 2>, double> area;
+  std::map<std::array<std::size_t, 2>, Wall> of;
   std::vector<double> surface;
 };
 
 /// Fails unless each triangle is of one fragment, or of two with opposite turn.
 Walls walls_of(const Fragments& fragments) {
-  std::map<std::array<Corner, 3>, std::vector<std::tuple<std::size_t, bool, double>>> uses;
+  std::map<std::array<Corner, 3>, std::vector<std::tuple<std::size_t, bool, Wall>>> uses;
   for (std::size_t k = 0; k < fragments.list.size(); ++k) {
     const IndexedMesh& mesh = fragments.list[k].mesh;
     for (const Triangle& t : mesh.triangles) {
       const auto [corners, ascends] = by_corners(mesh, t);
+      const Vector3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+      const double area = triangle_area(a, b, c);
       uses[corners].emplace_back(
-          k, ascends, triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+          k, ascends, Wall{area, area / 3.0 * (a + b + c), 0.5 * doubled_area_normal(a, b, c)});
     }
   }
   Walls walls;
   walls.surface.resize(fragments.list.size());
   for (const auto& [corners, use] : uses) {
     if (use.size() == 1) {
-      walls.surface[std::get<0>(use[0])] += std::get<2>(use[0]);
+      walls.surface[std::get<0>(use[0])] += std::get<2>(use[0]).area;
       continue;
     }
     EXPECT_EQ(use.size(), 2U);
     if (use.size() != 2) continue;
     EXPECT_NE(std::get<0>(use[0]), std::get<0>(use[1]));
     EXPECT_NE(std::get<1>(use[0]), std::get<1>(use[1])) << "the neighbours turn it oppositely";
-    walls.area[{std::get<0>(use[0]), std::get<0>(use[1])}] += std::get<2>(use[0]);
+    Wall& wall = walls.of[{std::get<0>(use[0]), std::get<0>(use[1])}];
+    wall.area += std::get<2>(use[0]).area;
+    wall.moment += std::get<2>(use[0]).moment;
+    wall.outward += std::get<2>(use[0]).outward;
   }
   return walls;
 }
@@ -98,12 +110,14 @@ void expect_division(const IndexedMesh& grain, const Fragments& result, int coun
   EXPECT_NEAR(surface / result.grain.area, 1.0, rounding);
   const Walls plain = walls_of(result);
   std::vector<double> wall(result.list.size(), 0.0);
-  EXPECT_EQ(plain.area.size(), result.contacts.size());
+  EXPECT_EQ(plain.of.size(), result.contacts.size());
   for (const FragmentContact& contact : result.contacts) {
     EXPECT_LT(contact.first, contact.second);
-    EXPECT_NEAR(plain.area.at({contact.first, contact.second}), contact.area,
-                rounding * result.grain.area);
-    EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
+    const Wall& by_hand = plain.of.at({contact.first, contact.second});
+    EXPECT_NEAR(by_hand.area, contact.area, rounding * result.grain.area);
+    EXPECT_LT((by_hand.moment / by_hand.area - contact.centre).norm(),
+              1e-9 * (1.0 + contact.centre.norm()));
+    EXPECT_LT((by_hand.outward.normalized() - contact.normal).norm(), 1e-6);
     wall[contact.first] += contact.area;
     wall[contact.second] += contact.area;
   }
@@ -251,6 +265,55 @@ TEST(Fragments, OfABoxHaveTheContactOfItsMiddle) {
   const Vector3 apart = result.list[1].mass.centroid - result.list[0].mass.centroid;
   EXPECT_GT(contact.normal.dot(apart), 0.0) << "from the first to the second";
   EXPECT_LT(result.list[0].hull_excess_percent, 1e-6) << "a half of a box is convex";
+}
+
+TEST(Fragments, OfARingHaveTheExcessOfItsHull) {
+  const IndexedMesh ring = test::torus(1.0, 0.25, 30);
+  const double hull = volume_of(convex_hull(ring.points, Execution(1)), Execution(1));
+  EXPECT_NEAR(divided(ring, 1).list[0].hull_excess_percent,
+              100.0 * (hull / volume_of(ring, Execution(1)) - 1.0), 1e-6);
+}
+
+// The middle cell of a long ring has two legs, and the smaller one moves to a neighbour.
+TEST(Fragments, OfARingWhoseLegsMovedFillIt) {
+  const IndexedMesh ring = test::scaled(test::torus(1.0, 0.25, 40), {0.6, 3.0, 0.6});
+  const Fragments result = divided(ring, 3);
+  expect_division(ring, result, 3);
+  EXPECT_EQ(result.moved_pieces, 1U);
+  // About half of the middle third.
+  EXPECT_NEAR(result.moved_percent, 100.0 / 6.0, 5.0);
+}
+
+TEST(Fragments, TellPointsFarAwayAndRepairs) {
+  const IndexedMesh grain = test::moved(test::sphere(3), 2.0, Vector3(50.0, 0.0, 0.0));
+  FragmentOptions options;
+  options.count = 3;
+  options.near = {Vector3(56.0, 0.0, 0.0)};  // 3 radii, and then 5
+  EXPECT_TRUE(fragment_grain(grain, options).warnings.empty());
+  options.near.emplace_back(60.0, 0.0, 0.0);
+  const std::vector<Sentence> told = fragment_grain(grain, options).warnings;
+  ASSERT_EQ(told.size(), 1U);
+  // The ball's volume is a few per cent below that of its sphere.
+  EXPECT_NE(told[0].text().find(" is 5.0"), std::string::npos) << told[0].text();
+  options.near.clear();
+  const IndexedMesh two = test::joined(grain, test::sphere(1));
+  EXPECT_EQ(fragment_grain(two, options).warnings.size(), 1U) << "the smaller body is left out";
+}
+
+TEST(FragmentVolumes, FollowTheCurveByMass) {
+  constexpr int count = 2000;
+  const std::vector<double> volumes =
+      fragment_volumes(GivenSizes({1.0, 2.0, 4.0}, {0.0, 30.0, 100.0}), count);
+  double all = 0.0;
+  double finer = 0.0;  // than the diameter 2
+  for (const double volume : volumes) {
+    all += volume;
+    finer += volume < 8.0 ? volume : 0.0;
+  }
+  EXPECT_NEAR(finer / all, 0.3, 0.002);
+  // Each fragment has the middle of its part, not an end.
+  EXPECT_GT(volumes.front(), 1.0);
+  EXPECT_LT(volumes.back(), 64.0);
 }
 
 TEST(Fragments, AreRefusedWithAReason) {

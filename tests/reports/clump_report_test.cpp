@@ -13,7 +13,9 @@
 #include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
+#include "toolbox/clump/first_contact.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/report/figures.h"
 #include "wscvt/report/mass_table.h"
 
 namespace wscvt {
@@ -154,6 +156,7 @@ ClumpResult numbered_clump() {
   clump.input.faces = 2464;
   clump.input.genus = 2;
   clump.stages = {{2, 3.0}, {4, 1.25}, {6, 0.5}};
+  clump.spheres[1].radius = 0.03125;  // the smallest is neither the first nor the last
   return clump;
 }
 
@@ -229,6 +232,7 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {
       {"/largest_distance", 0.75},
       {"/largest_percent", 18.75},
       {"/intersection_over_union", 0.875},
+      {"/smallest_radius", 0.03125},
       {"/first_contact/clump/mean_percent", -1.5},
       {"/first_contact/clump/scatter_percent", 2.25},
       {"/first_contact/remesh/mean_percent", -0.25},
@@ -263,7 +267,15 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {
 
 TEST(ClumpReportNumbers, CurveHasAPointPerStage) {
   const std::string page = clump_html(numbered_clump(), {}, Execution(1));
-  EXPECT_EQ(count_of(page, "<circle"), 3U);
+  EXPECT_TRUE(holds(page, logarithmic_figure("number of spheres", "rms distance, %",
+                                             {{2.0, 75.0}, {4.0, 31.25}, {6.0, 12.5}}, 0.0)));
+}
+
+TEST(ClumpReportNumbers, TellInHowManyPosesBodiesMet) {
+  const std::vector<Sphere> ball = {{Vector3::Zero(), 1.0}};
+  const auto pairs = ContactHeights(ball, 1.2, Execution(1)).distances(Execution(1)).size();
+  EXPECT_TRUE(holds(clump_html(numbered_clump(), {}, Execution(1)),
+                    " in " + std::to_string(pairs) + " pairs of poses."));
 }
 
 }  // namespace

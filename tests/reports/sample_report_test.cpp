@@ -28,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using Document = nlohmann::ordered_json;
 
-/// Grains with sizes 1, 2, ..., whose names could end an element of a page.
+/// Grains with sizes 1, 2, ..., whose names could end an element of a page. Those of the other
+/// sample are larger.
 SampleReport report_of(Eigen::Index grains, bool with_other) {
   SampleReport report;
   report.options.repetitions = 20;
@@ -40,7 +41,7 @@ SampleReport report_of(Eigen::Index grains, bool with_other) {
                      {"axis_l_box", "mm"},
                      {"convexity", ""}};
     const Eigen::VectorXd sizes =
-        Eigen::VectorXd::LinSpaced(grains, 1.0, static_cast<double>(grains));
+        (1.0 + 0.2613 * k) * Eigen::VectorXd::LinSpaced(grains, 1.0, static_cast<double>(grains));
     table.values.resize(grains, 5);
     table.values << sizes.array().cube(), sizes, 0.8 * sizes, (1.5 + k) * sizes,
         1.0 - 0.1 * (sizes.array() * 7.3).sin().abs();
@@ -67,6 +68,14 @@ Document data_of(const std::string& page) {
   const std::string begin = "id=\"data\">";
   const std::size_t from = page.find(begin) + begin.size();
   return Document::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+/// A number as a table shows it, beside its interval if it has one.
+std::string shown(double value, const Estimate& interval) {
+  const std::string text = format_number(value, 4);
+  if (std::isnan(interval.lower)) return text;
+  return text + " (" + format_number(interval.lower, 4) + " to " +
+         format_number(interval.upper, 4) + ")";
 }
 
 /// 40 grains of 8 to 47 voxels across, whose sphericity only the voxels make depend on the size.
@@ -126,8 +135,30 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   const Document& told = json["samples"][0]["trends_with_voxels"]["sphericity_wadell"];
   EXPECT_EQ(told["raw"]["value"].get<double>(), trend.raw.value);
   EXPECT_EQ(told["trusted_grains"].get<std::size_t>(), 33U);
-  EXPECT_NE(sample_csv(report).find("size_correlation_trusted"), std::string::npos);
-  const Document data = data_of(sample_html(report, Execution(1)));
+  std::map<std::string, std::string> in_csv;
+  for (const auto& record : test::csv_records(sample_csv(report))) {
+    if (record[1] == trend.name) in_csv[record[4]] = record[5] + " " + record[6] + " " + record[7];
+  }
+  for (const auto& [name, e] : {std::pair("resolved", trend.raw),
+                                {"corrected", trend.corrected},
+                                {"trusted", trend.trusted}}) {
+    EXPECT_EQ(in_csv.at(std::string("size_correlation_") + name),
+              format_exact(e.value) + " " + format_exact(e.lower) + " " + format_exact(e.upper));
+  }
+  const test::Rows log = test::cells_of_lines(sample_lines(report));
+  EXPECT_EQ(std::count(log.begin(), log.end(),
+                       std::vector<std::string>{trend.name, "39", format_number(trend.raw.value, 4),
+                                                format_number(trend.corrected.value, 4),
+                                                format_number(trend.trusted.value, 4)}),
+            1);
+  const std::string page = sample_html(report, Execution(1));
+  const test::Rows trends = test::table_named(page, "correlation with size");
+  ASSERT_EQ(trends.size(), 2U);
+  EXPECT_EQ(trends[1],
+            (std::vector<std::string>{trend.name, "39", shown(trend.raw.value, trend.raw),
+                                      shown(trend.corrected.value, trend.corrected), "33",
+                                      shown(trend.trusted.value, trend.trusted)}));
+  const Document data = data_of(page);
   EXPECT_EQ(data["leastAcross"].get<double>(), 15.0);
   EXPECT_EQ(data["samples"][0]["resolved"], Document({"area", "sphericity_wadell"}));
   EXPECT_EQ(data["samples"][0]["across"].size(), 40U);
@@ -135,6 +166,32 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   EXPECT_TRUE(data["samples"][0]["corrected"][1][0].is_null());
   // Remeshes are another matter, and so is a table without voxels.
   EXPECT_TRUE(report_of(40, false).samples.front().trends.empty());
+}
+
+TEST(SampleReport, TakesTheFinestTableAndEachSamplesOwnDensity) {
+  SampleTables levels;
+  for (const double nodes : {100.0, 1000.0, 300.0}) {
+    levels.tables.push_back(scanned_table());
+    levels.tables.back().values.col(8).setConstant(nodes);
+    levels.tables.back().values.col(2) *= nodes;  // the areas tell which table it is
+  }
+  SampleReport report;
+  report.options.repetitions = 0;
+  for (const char* name : {"one", "two", "three"}) {
+    add_sample(report, name, levels, {2.0, 3.0}, 1.0, Execution(1));
+  }
+  const test::Rows log = test::cells_of_lines(sample_lines(report));
+  const Document json = Document::parse(sample_json(report));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const GrainSample& sample = report.samples[k].sample;
+    EXPECT_EQ(sample.values(5, 2), 1000.0 * scanned_table().values(5, 2));
+    const double density = k == 0 ? 2.0 : 3.0;  // the last one is for all that follow
+    const double mass = density * scanned_table().values.col(0).sum();
+    EXPECT_EQ(json.at("samples").at(k).at("density"), density);
+    EXPECT_NEAR(json.at("samples").at(k).at("mass").get<double>(), mass, 1e-9 * mass);
+    const std::string line = "Mass of all grains: " + format_number(mass, 4);
+    EXPECT_EQ(std::count(log.begin(), log.end(), std::vector<std::string>{line}), k == 0 ? 1 : 2);
+  }
 }
 
 TEST(VoxelLines, TellErrorsAndTooManyNodes) {
@@ -243,14 +300,6 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   // 50 descriptors of them fit in 6 MB with a name and a number.
   const double bytes_a_number = (static_cast<double>(page.size()) - 10000.0 * 18.0) / 70000.0;
   EXPECT_LT(bytes_a_number, 11.0);
-}
-
-/// A number as a table shows it, beside its interval if it has one.
-std::string shown(double value, const Estimate& interval) {
-  const std::string text = format_number(value, 4);
-  if (std::isnan(interval.lower)) return text;
-  return text + " (" + format_number(interval.lower, 4) + " to " +
-         format_number(interval.upper, 4) + ")";
 }
 
 /// The sizes of a sample, by their definitions.
@@ -465,14 +514,18 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
     EXPECT_NEAR(json.at(row.column.name).at("deviation").get<double>(), deviation,
                 1e-12 * deviation);
   }
+  std::size_t seen = 0;
   for (const auto& cells : test::cells_of_lines(sample_lines(report))) {
     if (cells.size() != 5 || cells[0] != "size") continue;
+    ++seen;
     const SampleDistance& d = report.comparison[0].by_number;
+    EXPECT_NE(d.kolmogorov, report.comparison[0].by_mass.kolmogorov);
     EXPECT_EQ(cells[1], format_number(d.kolmogorov, 4));
     EXPECT_EQ(cells[2], format_number(d.kolmogorov_p, 4));
     EXPECT_EQ(cells[3], format_number(d.wasserstein / report.comparison[0].deviation, 4));
     EXPECT_EQ(cells[4], format_number(d.wasserstein_p, 4));
   }
+  EXPECT_EQ(seen, 1U);
 }
 
 /// Levels whose numbers are all different: k and 90 % of k * 10 of row r at level l.
@@ -480,7 +533,7 @@ DetailLevels six_levels() {
   DetailLevels levels;
   levels.mark_percent = 1.5;
   levels.nodes = {100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0};
-  for (const char* name : {"volume", "convexity", "rms_distance"}) {
+  for (const char* name : {"volume", "convexity", "rms_distance", "contact_normal_90"}) {
     DescriptorLevels row;
     row.name = name;
     for (std::size_t l = 0; l < 6; ++l) {
@@ -504,7 +557,7 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
   report.levels = six_levels();
   const std::string html = sample_html(report, Execution(1));
   const test::Rows page = test::table_named(html, "median, 90 % of the errors");
-  ASSERT_EQ(page.size(), 4U);
+  ASSERT_EQ(page.size(), 5U);
   EXPECT_EQ(page[0],
             (std::vector<std::string>{"median, 90 % of the errors", "N = 100", "N = 200", "N = 400",
                                       "N = 800", "N = 1600", "N = 3200", "N for 1.5 %"}));
@@ -515,9 +568,10 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
   EXPECT_EQ(data.at("nodes"), Document(report.levels->nodes));
   const auto csv = test::csv_records(sample_csv(report));
   const test::Rows log = test::cells_of_lines(sample_lines(report));
-  for (std::size_t r = 0; r < 3; ++r) {
+  for (std::size_t r = 0; r < 4; ++r) {
     const DescriptorLevels& row = report.levels->rows[r];
     SCOPED_TRACE(row.name);
+    const std::string unit = r == 3 ? "|degrees" : "|%";
     ASSERT_EQ(page[1 + r].size(), 8U);
     EXPECT_EQ(page[1 + r][0], row.name);
     EXPECT_EQ(page[1 + r][7], format_number(row.nodes_needed, 4));
@@ -544,8 +598,8 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
       EXPECT_EQ(found.at("percent_90_percent"), error.percent_90);
       EXPECT_EQ(data.at("rows").at(r).at("median").at(l), error.median);
       EXPECT_EQ(data.at("rows").at(r).at("percent_90").at(l), error.percent_90);
-      EXPECT_EQ(in_csv.at("error_median_n" + nodes + "|%"), error.median);
-      EXPECT_EQ(in_csv.at("error_percent_90_n" + nodes + "|%"), error.percent_90);
+      EXPECT_EQ(in_csv.at("error_median_n" + nodes + unit), error.median);
+      EXPECT_EQ(in_csv.at("error_percent_90_n" + nodes + unit), error.percent_90);
     }
   }
   // The terminal has room for the last four.
@@ -555,7 +609,7 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
   ASSERT_NE(head, log.end());
   EXPECT_EQ(*head, (std::vector<std::string>{"90 % of errors, %", "N 400", "N 800", "N 1600",
                                              "N 3200", "N for 1.5 %"}));
-  for (std::size_t r = 0; r < 3; ++r) {
+  for (std::size_t r = 0; r < 4; ++r) {
     const DescriptorLevels& row = report.levels->rows[r];
     std::vector<std::string> expected = {row.name};
     for (std::size_t l = 2; l < 6; ++l) {

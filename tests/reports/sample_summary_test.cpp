@@ -210,6 +210,7 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
     result.rms_distance = 0.001 * ((k * 37) % 150 + 1);
     table += sample_row("folder/grain" + std::to_string(k) + ".ply", result);
   }
+  table += failed_row("folder/bad.ply", "Broken.");
   write(table);
   const SampleSummary summary = summarise_table(path_);
   ASSERT_EQ(summary.farthest.size(), most_grains_shown);
@@ -263,7 +264,7 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
   std::string table = sample_header();
   Eigen::VectorXd radii(13);
   for (Eigen::Index k = 0; k < 13; ++k) {
-    radii[k] = 1.0 + 0.37 * static_cast<double>((k * 5) % 13);
+    radii[k] = 1.0 + 0.37 * std::pow(static_cast<double>((k * 5) % 13), 2);
     RemeshResult result = grain_of(radii[k]);
     result.scan.volume = 3.0 * radii[k];
     table += sample_row("grain" + std::to_string(k), result);

@@ -29,6 +29,17 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
     RemeshResult result;
     result.mesh.points.resize(7);
     result.rms_distance = 0.125;
+    result.scan_quality.edge_ratio.mean = 9.0;
+    result.scan_quality.smallest_angle = 3.0;
+    result.quality.edge_length.mean = 1.5;
+    result.quality.edge_variation = 0.375;
+    result.quality.edge_ratio.mean = 1.75;
+    result.quality.smallest_angle = 33.0;
+    result.input.vertices = 71;
+    result.input.genus = 2;
+    result.input.flap_area_fraction = 0.125;
+    result.input.filled_area_fraction = 0.5;
+    result.input.has_voxel_steps = true;
     const auto records = test::csv_records(
         shape_header({what, remeshes}) + shape_row("a, b.ply", "a, b.stl", result, shape) +
         failed_shape_row("c.ply", "It is broken.", {what, remeshes}));
@@ -44,16 +55,32 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
         {"rms_distance [length]", "0.125"},
         {"contact_error_mean [%]", "-0.5"},
         {"contact_error_scatter [%]", "1.5"},
+        {"remesh.edge_length_mean [length]", "1.5"},
+        {"remesh.edge_length_variation", "0.375"},
+        {"remesh.edge_ratio_mean", "1.75"},
+        {"remesh.smallest_angle [degrees]", "33"},
+        {"scan.edge_ratio_mean", "9"},
+        {"scan.smallest_angle [degrees]", "3"},
+        {"scan.vertices", "71"},
+        {"scan.genus", "2"},
+        {"scan.repaired_area_fraction", "0.625"},
+        {"scan.voxel_steps", "1"},
         {"contact_gap_median [%]", "0.1"},
+        {"contact_gap_90_one_sided [%]", "0.6"},
         {"contact_place_90 [%]", "0.4"},
         {"contact_normal_90 [degrees]", "6"},
         {"contact_normal_median_one_sided [degrees]", "7"},
         {"scan.convexity", "0.25"},
         {"remesh.convexity", "0.75"}};
+    std::size_t seen = 0;
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto known = expected.find(names[k]);
       if (known == expected.end()) continue;
       EXPECT_EQ(records[1][k], known->second) << names[k];
+      ++seen;
+    }
+    if (scans && remeshes) {
+      EXPECT_EQ(seen, expected.size()) << "each name is a column";
     }
     EXPECT_EQ(shape_header({what, remeshes}).find(",scan.") != std::string::npos, scans);
     EXPECT_EQ(shape_header({what, remeshes}).find(",contact_error_") != std::string::npos,

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -16,6 +19,8 @@
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
 #include "toolbox/exchange/tetrahedra_files.h"
+#include "wscvt/base/numbers.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
@@ -106,6 +111,76 @@ TEST_F(Tetrahedra, FollowTheWantedEdgeInAnyUnit) {
       static_cast<double>(small.tetrahedra.size()) / static_cast<double>(fine.tetrahedra.size()),
       1.0, 0.02);
   EXPECT_NEAR(small.mean_edge / fine.mean_edge, 1e-5, 1e-7);
+}
+
+/// Smallest and largest dihedral angle of the tetrahedra of a body, in degrees; all bodies if it is
+/// negative. Between the planes through an edge and each of the two other corners.
+std::array<double, 2> dihedral_angles(const TetrahedralMesh& mesh, int body = -1) {
+  const std::vector<Vector3>& p = mesh.surface.points;
+  std::array<double, 2> found = {180.0, 0.0};
+  for (std::size_t k = 0; k < mesh.tetrahedra.size(); ++k) {
+    if (body >= 0 && mesh.bodies[k] != body) continue;
+    std::array<int, 4> order = {0, 1, 2, 3};
+    do {
+      const auto corner = [&](std::size_t i) { return p[mesh.tetrahedra[k][order[i]]]; };
+      const Vector3 edge = (corner(1) - corner(0)).normalized();
+      const auto across = [&](std::size_t i) {
+        const Vector3 to = corner(i) - corner(0);
+        return Vector3(to - to.dot(edge) * edge).normalized();
+      };
+      const double angle = std::acos(std::clamp(across(2).dot(across(3)), -1.0, 1.0)) * 180.0 / pi;
+      found = {std::min(found[0], angle), std::max(found[1], angle)};
+    } while (std::next_permutation(order.begin(), order.end()));
+  }
+  return found;
+}
+
+double mean_length(const std::set<std::set<std::int32_t>>& edges, const std::vector<Vector3>& p) {
+  double sum = 0.0;
+  for (const auto& edge : edges) sum += (p[*edge.begin()] - p[*edge.rbegin()]).norm();
+  return sum / static_cast<double>(edges.size());
+}
+
+TEST_F(Tetrahedra, AreMeasuredAsByHand) {
+  for (const IndexedMesh& grain : {test::lumpy(1), test::lumpy(2), test::sphere(1)}) {
+    const TetrahedralMesh mesh = tetrahedra_in(grain, 0.0, Execution(1));
+    std::set<std::set<std::int32_t>> edges;
+    std::set<std::set<std::int32_t>> outer;
+    for (const Tetrahedron& t : mesh.tetrahedra) {
+      for (const std::int32_t a : t) {
+        for (const std::int32_t b : t) {
+          if (a != b) edges.insert({a, b});
+        }
+      }
+    }
+    for (const auto& [a, b, c] : grain.triangles) outer.insert({{a, b}, {b, c}, {c, a}});
+    const auto [smallest, largest] = dihedral_angles(mesh);
+    EXPECT_NEAR(mesh.smallest_dihedral, smallest, 1e-6);
+    EXPECT_NEAR(mesh.largest_dihedral, largest, 1e-6);
+    EXPECT_NEAR(mesh.mean_edge, mean_length(edges, mesh.surface.points), 1e-12);
+    EXPECT_EQ(tetrahedra_line(mesh), "Tetrahedra: " + std::to_string(mesh.tetrahedra.size()) +
+                                         " of " + std::to_string(mesh.surface.points.size()) +
+                                         " points, dihedral angles " + format_number(smallest, 3) +
+                                         " to " + format_number(largest, 4) +
+                                         " degrees, mean edge " + format_number(mesh.mean_edge, 3));
+    // Unless it is given, the wanted edge is the mean one of the surface.
+    const TetrahedralMesh same =
+        tetrahedra_in(grain, mean_length(outer, grain.points), Execution(1));
+    EXPECT_EQ(same.tetrahedra.size(), mesh.tetrahedra.size());
+  }
+}
+
+TEST_F(Tetrahedra, LineNamesTheBodyWithTheSmallestAngle) {
+  const IndexedMesh plate = test::moved(test::box(1.0, 1.0, 0.05), 1.0, Vector3(3.0, 0.0, 0.0));
+  for (const bool is_first : {false, true}) {
+    std::vector<IndexedMesh> bodies = {test::sphere(2), plate};
+    if (is_first) std::swap(bodies[0], bodies[1]);
+    const TetrahedralMesh mesh = tetrahedra_in(bodies, "grain", {"3", "7"}, 0.4, Execution(1));
+    const int flattest = dihedral_angles(mesh, 0)[0] < dihedral_angles(mesh, 1)[0] ? 0 : 1;
+    EXPECT_EQ(flattest, is_first ? 0 : 1);
+    const std::string name = flattest == 0 ? "(grain 3)" : "(grain 7)";
+    EXPECT_NE(tetrahedra_line(mesh).find(name), std::string::npos) << tetrahedra_line(mesh);
+  }
 }
 
 TEST_F(Tetrahedra, AreTheSameEachTimeAndInThreads) {
