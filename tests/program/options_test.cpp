@@ -77,8 +77,8 @@ class ProgramOptions : public test::ProgramRun {
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
   std::set<std::string> tested = {
-      "help",        "help-all",    "threads", "coefficients", "quiet",          "report",
-      "node-table",  "sdf",         "frame",   "verbose",      "size",           "scale",
+      "help",        "help-all",    "threads", "coefficients", "quiet",      "report",
+      "node-table",  "sdf",         "frame",   "verbose",      "size",       "scale",
       "sdf-surface", "sdf-spacing", "output",  "tetrahedra",   "edge-length"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
@@ -254,8 +254,7 @@ TEST_F(ProgramOptions, TetrahedraAreWrittenInEachFormAndLeaveTheRemeshAsItIs) {
   EXPECT_NE(content("body.vtu").find("UnstructuredGrid"), std::string::npos);
   EXPECT_NE(content("body.msh").find("$Elements"), std::string::npos);
   EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra body.stl").exit_code, 2);
-  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --edge-length -1").exit_code,
-            2);
+  EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --edge-length -1").exit_code, 2);
   EXPECT_FALSE(exists("bad.ply"));
 }
 

@@ -33,12 +33,9 @@ struct TetrahedralMesh {
 };
 
 inline constexpr NumberOption<double> tetrahedra_edge_option = {
-    "edge-length",
-    "longest wanted edge of tetrahedra",
-    0.0,
-    std::numeric_limits<double>::infinity(),
-    Ends::Both,
-    "inside the remesh, in the unit of the output. 0: as the remesh's edges"};
+    "edge-length", "longest wanted edge of tetrahedra",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Both,    "inside the remesh, in the unit of the output. 0: as the remesh's edges"};
 
 /// Throws Error(InvalidInput) that says what to install, if Gmsh is not there.
 void require_tetrahedra();
