@@ -19,19 +19,6 @@ SYSTEM = pathlib.Path("/usr/lib/x86_64-linux-gnu")
 # What the static libraries of the formats need in their turn; of their shared ones the loader knows it.
 BEHIND = ["znz", "jpeg", "lzma", "zstd", "jbig", "deflate", "webp", "Lerc", "sz", "aec", "z"]
 ITK = ["ITKCommon", "itkvnl_algo", "itkvnl", "itksys"]
-# HDF5 of Debian can read from S3 by libcurl, whose static library needs ten others. The program opens files only.
-NO_NETWORK = """
-void *curl_easy_init(void) { return 0; }
-int curl_easy_perform(void *handle) { (void)handle; return 1; }
-int curl_easy_setopt(void *handle, int option, ...) { (void)handle; (void)option; return 1; }
-void curl_easy_cleanup(void *handle) { (void)handle; }
-int curl_global_init(long flags) { (void)flags; return 1; }
-void curl_global_cleanup(void) {}
-void *curl_slist_append(void *list, const char *text) { (void)list; (void)text; return 0; }
-void curl_slist_free_all(void *list) { (void)list; }
-const void *EVP_sha256(void) { return 0; }
-unsigned char *HMAC(void) { return 0; }
-"""
 
 
 def run(*command, **more):
@@ -85,8 +72,6 @@ def make_static(build, output):
     run("cmake", "--build", build, "--target", "wscvt_program")
     work = build / "static"
     work.mkdir(exist_ok=True)
-    (work / "no_network.c").write_text(NO_NETWORK)
-    run("cc", "-c", "-fno-builtin", work / "no_network.c", "-o", work / "no_network.o")
 
     # What the shared program is linked of.
     words = shlex.split(run("ninja", "-C", build, "-t", "commands", "-s", "lib/wscvt").splitlines()[-1])
@@ -94,9 +79,10 @@ def make_static(build, output):
     shared = [pathlib.Path(word) for word in words if ".so" in word and word.startswith("/")]
     built = openmesh(work) + (itk(work) if any("ITK" in path.name for path in shared) else [])
     of_debian = [static_of(path) for path in shared if not path.name.lower().startswith(("libitk", "libopenmesh"))]
+    of_debian += [pathlib.Path(word) for word in words if word.endswith(".a") and word.startswith("/")]
     of_debian += [SYSTEM / f"lib{name}.a" for name in BEHIND]
     part = output.with_name(output.name + ".part")
-    run("c++", "-static", "-s", "-o", part, *own, work / "no_network.o", "-Wl,--start-group", *built, *of_debian,
+    run("c++", "-static", "-s", "-o", part, *own, "-Wl,--start-group", *built, *of_debian,
         "-Wl,--end-group")
     if "NEEDED" in run("readelf", "-d", part):
         sys.exit(f"{part} needs shared libraries.")

@@ -204,6 +204,8 @@ TEST_F(Tetrahedra, AreRefusedWhereThereAreNone) {
   IndexedMesh inward = grain;
   for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
   EXPECT_ERROR(tetrahedra_in(inward, 0.0), InvalidInput);
+  // About 1.4 in radius; 8.5 tetrahedra per edge cubed.
+  EXPECT_ERROR(tetrahedra_in(grain, 0.005), InvalidInput);
   // Two balls that intersect.
   const IndexedMesh crossed =
       test::joined(test::sphere(2), test::moved(test::sphere(2), 1.0, Vector3(0.7, 0.1, 0.2)));

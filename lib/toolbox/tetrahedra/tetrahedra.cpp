@@ -105,6 +105,13 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   std::vector<std::size_t> corners;
   for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
   const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
+  // Regular ones have 6 sqrt(2) tetrahedra per edge cubed.
+  const double expected = 6.0 * std::sqrt(2.0) * volume / (wanted * wanted * wanted);
+  if (expected > most_tetrahedra) {
+    refuse("Edges of " + format_number(wanted) + " need about " + format_number(expected / 1e6, 3) +
+           " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
+           " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
+  }
   const GmshVolume filled =
       gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
   TetrahedralMesh mesh;

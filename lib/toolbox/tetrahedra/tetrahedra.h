@@ -37,6 +37,9 @@ inline constexpr NumberOption<double> tetrahedra_edge_option = {
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Both,    "inside the remesh, in the unit of the output. 0: as the remesh's edges"};
 
+/// More are refused, because Gmsh cannot be stopped and needs minutes and gigabytes for them.
+inline constexpr double most_tetrahedra = 5e6;
+
 /// Throws Error(InvalidInput) that says what to install, if Gmsh is not there.
 void require_tetrahedra();
 
@@ -47,9 +50,9 @@ void require_tetrahedra();
 ///
 /// Gmsh (Geuzaine and Remacle 2009, Int. J. Numer. Meth. Eng. 79, 1309-1331) is opened only here,
 /// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
-/// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0 and for a mesh
-/// without volume; NumericalFailure if Gmsh cannot fill the mesh, as when it intersects itself;
-/// Cancelled before the work.
+/// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0, for one that
+/// needs more than most_tetrahedra, and for a mesh without volume; NumericalFailure if Gmsh cannot
+/// fill the mesh, as when it intersects itself; Cancelled before the work.
 TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
                               const Execution& execution = Execution());
 

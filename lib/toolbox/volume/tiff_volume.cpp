@@ -343,8 +343,9 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
   geometry.size_source = layout.writer + "'s text";
   const bool is_by_imagej = layout.writer == "ImageJ";
-  if (size.z() > 0.0 && resolution && layout.writer != "OME" &&
-      (is_by_imagej || unit == RESUNIT_NONE)) {
+  // Their texts have the size along z only. OME's has all.
+  if (size.z() > 0.0 && resolution &&
+      (is_by_imagej || (is_by_pages(layout) && unit == RESUNIT_NONE))) {
     // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();

@@ -151,8 +151,9 @@ int fewest_nodes(std::size_t genus) {
                 " nodes, not " + std::to_string(count) + "."
           : std::to_string(count) + " nodes are too few for the grain's " + handles + ".";
   if (enough > 0) {
-    text += " " + std::to_string(enough) +
-            " were tried and are enough for them. Use that number or more.";
+    text +=
+        " " + std::to_string(enough) +
+        " were tried and are enough for them. Use that number or more; a thin grain may need more.";
   } else {
     text += " Up to " + std::to_string(most_tried_times * count) +
             " were tried and are not enough. Use more, or let the handles be cut: " +
