@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "wscvt/base/sentence.h"
+#include "wscvt/base/error.h"
 
 namespace wscvt::filter {
 

@@ -15,7 +15,7 @@
 #include "wscvt/base/version.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
-#include "wscvt/remesh/other_method.h"
+#include "wscvt/remesh/remesh_options.h"
 #include "wscvt/report/report.h"
 
 struct wscvt_remesher {

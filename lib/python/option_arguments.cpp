@@ -11,7 +11,7 @@
 #include "bindings.h"
 #include "conversion.h"
 #include "wscvt/base/error.h"
-#include "wscvt/remesh/other_method.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::python {
 

@@ -13,7 +13,7 @@
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/remesh/target_search.h"
-#include "wscvt/repair/closing_advice.h"
+#include "wscvt/repair/scan_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "support/comma_decimals.h"
+#include "support/file_folder.h"
 
 namespace wscvt {
 namespace {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "support/count_of.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"
 

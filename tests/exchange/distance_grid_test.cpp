@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"

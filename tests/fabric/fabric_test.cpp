@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "support/cancelled_runs.h"
+#include "support/expect_error.h"
 #include "support/page_tables.h"
 #include "support/volume_folder.h"
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/fabric/fabric_page.h"
-#include "wscvt/base/csv_reader.h"
+#include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"

@@ -5,43 +5,39 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "fuzz/promise.h"
 #include "wscvt/base/error.h"
 #include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/readers.h"
 
 namespace {
 
 using namespace wscvt;
 
-IndexedMesh read(char format, ByteReader& reader) {
+void read(char format, ByteReader& reader, MeshFile& file) {
   switch (format) {
     case 'p':
-      return read_ply(reader);
+      return read_ply(reader, file);
     case 's':
-      return read_stl(reader);
-    case 'o': {
-      MeshAttributes attributes;
-      std::vector<std::string> libraries;
-      std::vector<NamedFaces> names;
-      return read_obj_attributes(reader, attributes, libraries, names);
-    }
+      return read_stl(reader, file);
+    case 'o':
+      return read_obj(reader, file);
     case 'g':
-      return read_gmsh(reader);
+      return read_gmsh(reader, file);
     case 'a':
-      return read_abaqus(reader);
+      return read_abaqus(reader, file);
     case 'k':
-      return read_legacy_vtk(reader);
+      return read_legacy_vtk(reader, file);
     case 'v':
-      return read_vtp(reader);
+      return read_vtp(reader, file);
     case 'x':
-      return read_point_text(reader);
+      return read_point_text(reader, file);
     case 'c':
-      return read_pcd(reader);
+      return read_pcd(reader, file);
     default:
-      return read_off(reader);
+      return read_off(reader, file);
   }
 }
 
@@ -54,7 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream stream(content);
   ByteReader reader(stream, content.size(), "file");
   try {
-    const IndexedMesh mesh = read(static_cast<char>(data[0]), reader);
+    MeshFile file;
+    read(static_cast<char>(data[0]), reader, file);
+    const IndexedMesh& mesh = file.mesh;
     for (const Triangle& t : mesh.triangles) {
       for (const std::int32_t v : t) {
         promise(v >= 0 && static_cast<std::size_t>(v) < mesh.points.size(),

@@ -8,8 +8,8 @@
 #include "fuzz/promise.h"
 #include "property/promises.h"
 #include "property/random_bodies.h"
+#include "toolbox/job/bodies.h"
 #include "wscvt/base/error.h"
-#include "wscvt/repair/bodies.h"
 
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "marching_cubes.h"
-#include "voxel_blur.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/sphere/sphere_grid.h"

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "marching_cubes.h"
 #include "wscvt/base/mesh.h"
 
 namespace wscvt::test {
@@ -33,5 +34,8 @@ struct VoxelGrid {
 /// apply, the segments close to loops, and a loop is cut into triangles by diagonals that lie in no
 /// face.
 IndexedMesh marching_cubes(const VoxelGrid& grid, double level);
+
+/// Gaussian of the given standard deviation, in nodes, along every axis; the border is continued.
+void blur(VoxelGrid& grid, double deviation);
 
 }  // namespace wscvt::test

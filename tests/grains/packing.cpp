@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "voxel_blur.h"
+#include "marching_cubes.h"
 
 namespace wscvt::test {
 

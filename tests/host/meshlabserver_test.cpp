@@ -15,7 +15,6 @@
 
 #include "calls.h"
 #include "grains/bent_grain.h"
-#include "grains/handled_body.h"
 #include "programs.h"
 #include "sample_meshes.h"
 #include "support/test_shapes.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/map/kernel_insertion.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +8,8 @@
 
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "wscvt/sphere/orientation.h"
+#include "toolbox/map/sphere_map.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 namespace {

@@ -13,14 +13,14 @@
 #include "support/test_shapes.h"
 #include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
-#include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 namespace {
 
 MappedSurface mapped(const IndexedMesh& mesh) {
-  return MappedSurface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
+  return MappedSurface(mesh, map_to_sphere(mesh, Execution(1)), Execution(1));
 }
 
 TEST(MappedSurface, LocatesWhatItEvaluates) {
@@ -127,7 +127,7 @@ TEST(MappedSurface, RefusesWhatDoesNotCoverTheSphere) {
 TEST(MappedSurface, DerivativesAreThoseWithinAFace) {
   // So few faces that hardly a step leaves one; where it does nothing can be said.
   const IndexedMesh mesh = test::box(1, 2, 3);
-  const MappedSurface surface(mesh, map_to_sphere(mesh, Execution(1)).directions, Execution(1));
+  const MappedSurface surface(mesh, map_to_sphere(mesh, Execution(1)), Execution(1));
   const double step = 1e-5;
   int compared = 0;
   for (const Vector3& u : random_directions(200, test::announced(10))) {

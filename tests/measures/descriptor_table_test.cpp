@@ -12,7 +12,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/measures/form_axes.h"
+#include "wscvt/measures/descriptor_steps.h"
 
 namespace wscvt {
 namespace {

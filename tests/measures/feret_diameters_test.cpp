@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/feret_diameters.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "support/seeds.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_steps.h"
 
 namespace wscvt {
 namespace {

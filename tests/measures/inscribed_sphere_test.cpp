@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/inscribed_sphere.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_steps.h"
 
 namespace wscvt {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/roundness.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_steps.h"
 
 namespace wscvt {
 namespace {

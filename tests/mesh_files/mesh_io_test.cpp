@@ -13,7 +13,6 @@
 #include <string>
 #include <thread>
 
-#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/read_content.h"

@@ -99,10 +99,9 @@ TEST(PlyReader, KeepsNumbersOfVerticesAndFacesButNotNormals) {
     content += put(1, "uchar") + put(6, "float") + end + put(1234, "int") + put(3, "uchar");
     for (const int k : {0, 1, 3}) content += put(k, "int");
     content += put(1, "uchar") + put(8, "float") + end;
-    MeshAttributes kept;
-    std::istringstream stream(content);
-    ByteReader reader(stream, content.size(), "a file");
-    const IndexedMesh mesh = read_ply_attributes(reader, kept);
+    const MeshFile file = test::read_file(read_ply, content);
+    const IndexedMesh& mesh = file.mesh;
+    const MeshAttributes& kept = file.attributes;
     ASSERT_EQ(mesh.triangles.size(), 3U);  // a quadrangle and a triangle
     EXPECT_EQ(mesh.points, corners);
     ASSERT_EQ(kept.of_vertices.size(), 2U);

@@ -18,8 +18,7 @@ namespace {
 using test::bytes;
 using test::read_content;
 
-void expect_refusal(IndexedMesh (*read)(ByteReader&), const std::string& content,
-                    const std::string& part) {
+void expect_refusal(test::Reader read, const std::string& content, const std::string& part) {
   const std::string sentence = test::refusal(read, content);
   EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
 }

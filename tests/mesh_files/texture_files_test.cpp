@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/texture_files.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "support/coded_bytes.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
-#include "support/tga_picture.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/mesh_files/picture_file.h"
+#include "wscvt/mesh_files/readers.h"
 
 namespace wscvt {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "support/cancelled_runs.h"
+#include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/surface/delaunay_flips.h"
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "grains/ct_grain.h"
-#include "support/cancelled_runs.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"

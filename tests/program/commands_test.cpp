@@ -13,10 +13,10 @@
 
 #include "grains/bent_grain.h"
 #include "program_run.h"
+#include "support/coded_bytes.h"
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
-#include "support/tga_picture.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/grain_measures.h"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "limited_run.h"
-#include "support/count_of.h"
 #include "support/made_volume.h"
+#include "support/page_tables.h"
 
 namespace wscvt {
 namespace {

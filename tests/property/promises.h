@@ -17,7 +17,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/repair/shrink_wrap.h"
+#include "wscvt/repair/new_surface.h"
 #include "wscvt/report/report.h"
 #include "wscvt/surface/self_intersections.h"
 

@@ -10,7 +10,6 @@
 
 #include "grains/bent_grain.h"
 #include "grains/ct_grain.h"
-#include "grains/handled_body.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "support/voxel_body.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/remesh/remesh_units.h"
-
 #include <gtest/gtest.h>
 
 #include "support/test_shapes.h"
+#include "wscvt/remesh/repaired_scan.h"
 
 namespace wscvt {
 namespace {

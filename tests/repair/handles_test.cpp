@@ -8,13 +8,12 @@
 #include <functional>
 #include <string>
 
-#include "grains/handled_body.h"
-#include "support/cancelled_runs.h"
+#include "grains/bent_grain.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/sphere/orientation.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "support/cancelled_runs.h"
-#include "support/count_of.h"
+#include "support/expect_error.h"
+#include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/report/mesh_view.h"
 #include "wscvt/report/page_figures.h"

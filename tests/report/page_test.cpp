@@ -8,16 +8,16 @@
 #include <sstream>
 #include <thread>
 
-#include "support/count_of.h"
 #include "support/expect_error.h"
+#include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/version.h"
 #include "wscvt/remesh.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/report/csv_table.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/html_document.h"
+#include "wscvt/report/open_table.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {

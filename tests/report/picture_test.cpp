@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "support/decoded.h"
+#include "support/coded_bytes.h"
 
 namespace wscvt {
 namespace {

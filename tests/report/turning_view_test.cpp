@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "support/decoded.h"
+#include "support/coded_bytes.h"
 #include "support/test_shapes.h"
 
 namespace wscvt {

@@ -9,14 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "support/count_of.h"
 #include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "toolbox/clump/first_contact.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
-#include "wscvt/report/mass_table.h"
 
 namespace wscvt {
 namespace {

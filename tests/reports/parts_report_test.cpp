@@ -19,7 +19,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text.h"
-#include "wscvt/report/mass_table.h"
+#include "wscvt/report/descriptor_report.h"
 
 namespace wscvt {
 namespace {

@@ -18,7 +18,7 @@
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
-#include "toolbox/report/voxel_lines.h"
+#include "toolbox/report/shape_table.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,21 @@ inline std::vector<double> random_harmonics(int degree, std::uint64_t seed) {
   }
   coefficients[0] = std::sqrt(4.0 * pi);
   return coefficients;
+}
+
+/// An ellipsoid as the image of the sphere, x(u) = centre + axes * u by coordinates: a surface over
+/// the sphere that is not radial, with closed forms. Lengths.
+inline HarmonicMap affine_map(const Vector3& axes, const Vector3& centre = Vector3::Zero()) {
+  const double linear = std::sqrt(4.0 * pi / 3.0);  // of a coordinate by the harmonic of degree 1
+  std::array<std::vector<double>, 3> coefficients;
+  for (std::size_t k = 0; k < 3; ++k) {
+    coefficients[k].assign(4, 0.0);
+    coefficients[k][0] = centre[static_cast<Eigen::Index>(k)] * std::sqrt(4.0 * pi);
+  }
+  coefficients[0][harmonic_index(1, 1)] = -axes.x() * linear;
+  coefficients[1][harmonic_index(1, -1)] = -axes.y() * linear;
+  coefficients[2][harmonic_index(1, 0)] = axes.z() * linear;
+  return HarmonicMap(coefficients);
 }
 
 }  // namespace wscvt::test

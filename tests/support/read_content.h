@@ -11,18 +11,26 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/mesh_files/byte_reader.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::test {
 
+using Reader = void (*)(ByteReader&, MeshFile&);
+
 /// What a reader makes of a file with this content.
-inline IndexedMesh read_content(IndexedMesh (*read)(ByteReader&), const std::string& content) {
+inline MeshFile read_file(Reader read, const std::string& content) {
   std::istringstream stream(content);
   ByteReader reader(stream, content.size(), "a file");
-  return read(reader);
+  MeshFile file;
+  read(reader, file);
+  return file;
+}
+inline IndexedMesh read_content(Reader read, const std::string& content) {
+  return read_file(read, content).mesh;
 }
 
 /// The sentence with which a reader refuses a content; empty, and a failure, when it does not.
-inline std::string refusal(IndexedMesh (*read)(ByteReader&), const std::string& content) {
+inline std::string refusal(Reader read, const std::string& content) {
   const std::string sentence =
       refusal(ErrorCode::InputOutput, [&] { read_content(read, content); });
   EXPECT_NE(sentence, "") << "was read: " << content.substr(0, 200);

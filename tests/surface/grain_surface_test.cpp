@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "support/affine_map.h"
 #include "support/expect_error.h"
+#include "support/random_harmonics.h"
 #include "wscvt/surface/quadric_surface.h"
 
 namespace wscvt {

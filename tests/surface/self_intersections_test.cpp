@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/cancelled_runs.h"
+#include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "support/affine_map.h"
+#include "support/random_harmonics.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"

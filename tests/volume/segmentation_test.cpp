@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "grains/packing.h"
-#include "support/cancelled_runs.h"
+#include "support/expect_error.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
 #include "toolbox/volume/grey_threshold.h"

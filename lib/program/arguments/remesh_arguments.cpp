@@ -11,7 +11,7 @@
 
 #include "program/call/command.h"
 #include "wscvt/base/text.h"
-#include "wscvt/remesh/other_method.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {
 

@@ -7,8 +7,8 @@
 #include <functional>
 #include <utility>
 
+#include "toolbox/clump/first_contact.h"
 #include "toolbox/clump/sphere.h"
-#include "toolbox/clump/unit_frame.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
@@ -16,7 +16,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
-#include "wscvt/repair/enclosure.h"
+#include "wscvt/repair/components.h"
 
 namespace wscvt {
 

@@ -12,9 +12,9 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/measures/inscribed_sphere.h"
-#include "wscvt/repair/enclosure.h"
+#include "wscvt/repair/components.h"
 
 namespace wscvt {
 

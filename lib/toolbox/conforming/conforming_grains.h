@@ -9,10 +9,10 @@
 #include "toolbox/conforming/grain_voxels.h"
 #include "toolbox/conforming/wall_triangle.h"
 #include "toolbox/volume/label_volume.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
-#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 

@@ -8,8 +8,8 @@
 #include "toolbox/convex/convex_parts.h"
 #include "toolbox/convex/parts.h"
 #include "toolbox/exchange/simulation_options.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
-#include "wscvt/base/sentence.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

@@ -8,7 +8,6 @@
 
 #include "toolbox/exchange/distance_grid.h"
 #include "toolbox/exchange/node_table.h"
-#include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "toolbox/fragment/fragment_options.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/sentence.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {

@@ -12,9 +12,9 @@
 
 #include "toolbox/job/label_source.h"
 #include "toolbox/report/sample_table.h"
+#include "toolbox/sample/csv_reader.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/segmentation.h"
-#include "wscvt/base/csv_reader.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"

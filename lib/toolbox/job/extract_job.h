@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/job/bodies.h"
 #include "toolbox/job/grain_job.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/option.h"
-#include "wscvt/repair/bodies.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "toolbox/report/sample_table.h"
-#include "wscvt/base/csv_reader.h"
+#include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 

@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "toolbox/job/bodies.h"
 #include "toolbox/job/grain_files.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/mesh_attributes.h"
-#include "wscvt/base/sentence.h"
-#include "wscvt/repair/bodies.h"
 
 namespace wscvt {
 

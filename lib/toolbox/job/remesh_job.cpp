@@ -11,7 +11,7 @@
 #include "toolbox/job/extract_job.h"
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
-#include "toolbox/report/voxel_lines.h"
+#include "toolbox/report/shape_table.h"
 #include "toolbox/resolution/resolution.h"
 #include "toolbox/sample/grain_table.h"
 #include "wscvt/base/error.h"

@@ -9,16 +9,16 @@
 
 #include "toolbox/map/harmonic_equations.h"
 #include "toolbox/map/mapped_surface.h"
+#include "toolbox/map/scan_harmonics.h"
+#include "toolbox/map/sphere_map.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_surface.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr std::size_t series_block = 8192;
 
 /// Side length of the quadrature's triangles on the sphere times the degree. The midpoint rule's
 /// error is about spacing^2 / 24 for the highest harmonics, one per cent.
@@ -87,27 +87,6 @@ Quadrature quadrature_over(const MappedSurface& surface, int degree) {
   return result;
 }
 
-double turned_share(const HarmonicMap& map, const MappedSurface& surface,
-                    const Execution& execution) {
-  const SphereQuadrature quadrature = gauss_legendre_sphere(2 * map.degree() + 8);
-  const std::vector<Vector3>& u = quadrature.directions;
-  using Sums = Eigen::Vector2d;
-  const Sums sums = execution.parallel_sum(
-      u.size(), series_block, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
-        std::vector<SurfaceJet> jets(end - begin);
-        map.evaluate_jets(u.data() + begin, jets.size(), Derivatives::First, jets.data());
-        Sums part = Sums::Zero();
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vector3 normal = area_normal(jets[i - begin], u[i]);
-          const double area = quadrature.weights[i] * normal.norm();
-          part[0] += area;
-          if (normal.dot(surface.normal(surface.locate(u[i]))) < 0.0) part[1] += area;
-        }
-        return part;
-      });
-  return sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
-}
-
 }  // namespace
 
 HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
@@ -125,10 +104,9 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
   for (double& weight : points.weights) weight *= 4.0 * pi / area;
 
   HarmonicMapReport report;
-  report.requested_degree = degree;
-  report.points = points.directions.size();
   int trial = degree;
-  while (trial > 0 && points_per_coefficient * harmonic_count(trial) > report.points) --trial;
+  while (trial > 0 && points_per_coefficient * harmonic_count(trial) > points.directions.size())
+    --trial;
   if (trial < degree) report.limit = DegreeLimit::Points;
   const std::unique_ptr<HarmonicEquations> equations = harmonic_equations(points, trial, execution);
   execution.report(0.4, "Fitting the harmonic map");
@@ -153,13 +131,21 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
     HarmonicMap map(std::move(coefficients));
     report.degree = trial;
     report.residual = std::sqrt(square);
-    report.turned_area_share = turned_share(map, surface, execution);
     execution.report(1.0, "Fitting the harmonic map");
     return {std::move(map), report};
   }
   throw Error(ErrorCode::NumericalFailure,
               "No series of spherical harmonics describes the mapped surface, not even of degree "
               "0. Check the mesh for faces without area.");
+}
+
+SeriesCoefficients scan_harmonics(const IndexedMesh& scan, int degree, const Execution& execution) {
+  SeriesCoefficients coefficients = radial_coefficients(scan, degree, execution);
+  if (!coefficients.radius.empty()) return coefficients;
+  const MappedSurface mapped(scan, map_to_sphere(scan, execution.part(0.0, 0.8)),
+                             execution.part(0.8, 0.9));
+  coefficients.map = fit_harmonic_map(mapped, degree, execution.part(0.9, 1.0)).map.coefficients();
+  return coefficients;
 }
 
 }  // namespace wscvt

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
-
 #include "wscvt/base/execution.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/surface_options.h"
@@ -13,15 +11,10 @@ class MappedSurface;
 
 /// The report of a harmonic map's fit.
 struct HarmonicMapReport {
-  int requested_degree = 0;
   int degree = 0;  ///< lowered if the surface cannot support the requested degree
   DegreeLimit limit = DegreeLimit::None;
-  std::size_t points = 0;  ///< of the quadrature over the faces
   double residual = 0.0;   ///< rms over the area of the distance at equal directions, length
   double condition = 0.0;  ///< estimate for the equations, common to all coordinates
-  /// Fraction of the series' area with a normal opposite to the scan's: folds at edges and limbs,
-  /// because the degree is too low there.
-  double turned_area_share = 0.0;
 };
 
 /// A series and the report of its fit.

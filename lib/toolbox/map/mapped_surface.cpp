@@ -11,8 +11,8 @@
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/sphere/orientation.h"
 #include "wscvt/sphere/solid_angle.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 

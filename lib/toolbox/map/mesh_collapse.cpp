@@ -636,19 +636,4 @@ std::vector<char> MeshCollapse::absent_triangles() const {
   return absent;
 }
 
-IndexedMesh MeshCollapse::present_mesh(const std::vector<Vector3>& positions) const {
-  IndexedMesh mesh;
-  std::vector<std::int32_t> places(points_.size(), -1);
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (first_[i] < 0) continue;
-    places[i] = static_cast<std::int32_t>(mesh.points.size());
-    mesh.points.push_back(positions[i]);
-  }
-  for (const std::int32_t t : present_) {
-    const Triangle& corners = triangles_[t];
-    mesh.triangles.push_back({places[corners[0]], places[corners[1]], places[corners[2]]});
-  }
-  return mesh;
-}
-
 }  // namespace wscvt

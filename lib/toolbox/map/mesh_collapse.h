@@ -63,10 +63,6 @@ class MeshCollapse {
     wscvt::visit_outgoing(opposite_, first_[vertex], visit);
   }
 
-  /// Returns the mesh at this stage: its vertices in the input's order. `positions` has one entry
-  /// per vertex of the input.
-  IndexedMesh present_mesh(const std::vector<Vector3>& positions) const;
-
  private:
   class Queue;
 

@@ -3,25 +3,144 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
-#include "toolbox/map/kernel_insertion.h"
 #include "toolbox/map/map_energy.h"
 #include "toolbox/map/mesh_collapse.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/sphere/orientation.h"
-#include "wscvt/sphere/solid_angle.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 
 namespace {
 
-constexpr std::size_t map_block = 8192;
+using Vector2 = Eigen::Vector2d;
+
+bool is_in_kernel(const Vector3& p, const std::vector<Vector3>& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (!counter_clockwise(p, ring[i], ring[i + 1 < ring.size() ? i + 1 : 0])) return false;
+  }
+  return true;
+}
+
+/// Whether twice the area of every triangle about p exceeds `floor`, up to rounding.
+bool is_well_inside(const Vector3& p, const std::vector<Vector3>& ring, double floor) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vector3& a = ring[i];
+    const Vector3& b = ring[i + 1 < ring.size() ? i + 1 : 0];
+    if (!(p.dot(doubled_area_normal(p, a, b)) > floor)) return false;
+  }
+  return true;
+}
+
+/// Clips a convex polygon to value + slope . x >= 0 (Sutherland and Hodgman 1974).
+void clip(std::vector<Vector2>& polygon, double value, const Vector2& slope,
+          std::vector<Vector2>& scratch) {
+  scratch.clear();
+  for (std::size_t j = 0; j < polygon.size(); ++j) {
+    const Vector2& a = polygon[j];
+    const Vector2& b = polygon[j + 1 < polygon.size() ? j + 1 : 0];
+    const double at_a = value + slope.dot(a);
+    const double at_b = value + slope.dot(b);
+    if (at_a >= 0.0) scratch.push_back(a);
+    if ((at_a < 0.0) != (at_b < 0.0)) scratch.push_back(a + at_a / (at_a - at_b) * (b - a));
+  }
+  polygon.swap(scratch);
+}
+
+/// Returns the centroid of a convex polygon; nothing if it has no area.
+std::optional<Vector2> centroid(const std::vector<Vector2>& polygon) {
+  double doubled = 0.0;
+  Vector2 moment = Vector2::Zero();
+  for (std::size_t j = 1; j + 1 < polygon.size(); ++j) {
+    const Vector2 a = polygon[j] - polygon[0];
+    const Vector2 b = polygon[j + 1] - polygon[0];
+    const double part = a.x() * b.y() - a.y() * b.x();
+    doubled += part;
+    moment += part * (a + b) / 3.0;
+  }
+  if (!(doubled > 0.0)) return std::nullopt;
+  return moment / doubled + polygon[0];
+}
+
+/// Returns the centroid of the kernel in the gnomonic plane about the apex, where great circles are
+/// lines.
+std::optional<Vector3> kernel_centroid(const std::vector<Vector3>& ring, std::size_t apex,
+                                       double size) {
+  const Vector3& o = ring[apex];
+  const Vector3 e1 = o.unitOrthogonal();
+  const Vector3 e2 = o.cross(e1);
+  // The plane is in units of the ring's size. The box cuts off nothing important; for rings round
+  // half the sphere it ends 76 degrees from the apex.
+  const double unit = std::min(size, 1.0);
+  std::vector<Vector2> polygon{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}};
+  std::vector<Vector2> scratch;
+  for (std::size_t i = 0; i < ring.size() && polygon.size() >= 3; ++i) {
+    const std::size_t next = i + 1 < ring.size() ? i + 1 : 0;
+    // The normal of the great circle through two neighbours, from differences to keep relative
+    // precision.
+    const Vector3 a = ring[i] - o;
+    const Vector3 b = ring[next] - o;
+    const Vector3 ab = a.cross(b);
+    const Vector3 normal = o.cross(b - a) + ab;
+    const double value = i == apex || next == apex ? 0.0 : o.dot(ab);
+    clip(polygon, value, unit * Vector2(normal.dot(e1), normal.dot(e2)), scratch);
+  }
+  const std::optional<Vector2> middle = centroid(polygon);
+  if (!middle) return std::nullopt;
+  return (o + unit * (middle->x() * e1 + middle->y() * e2)).normalized();
+}
+
+}  // namespace
+
+std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
+                                            const std::vector<double>& distances,
+                                            std::size_t apex) {
+  const std::size_t count = ring.size();
+  if (count < 3) return std::nullopt;  // no polygon
+  const Vector3& o = ring[apex];
+  double size = 0.0;
+  double mean_distance = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    size = std::max(size, (ring[i] - o).norm());
+    mean_distance += distances[i] / static_cast<double>(count);
+  }
+  // Beyond a radian the mean may lie on the wrong side of the sphere.
+  if (size < 1.0) {
+    const double floor = mean_distance > 0.0 ? 1e-6 * mean_distance : 1.0;
+    Vector3 mean = Vector3::Zero();
+    for (std::size_t i = 0; i < count; ++i) mean += ring[i] / (distances[i] + floor);
+    mean.normalize();
+    // If a triangle would be thinner than this, the kernel's centroid may be better.
+    if (is_well_inside(mean, ring, 1e-4 * size * size)) return Insertion{mean, false};
+  }
+  const std::optional<Vector3> centre = kernel_centroid(ring, apex, size);
+  if (centre && is_in_kernel(*centre, ring)) return Insertion{*centre, true};
+  // Tries points ever closer to the apex, along the middle of its angle, where the kernel is never
+  // empty.
+  const Vector3 forward = (ring[(apex + 1) % count] - o).normalized();
+  const Vector3 backward = (ring[(apex + count - 1) % count] - o).normalized();
+  Vector3 along = forward + backward;
+  along -= along.dot(o) * o;
+  // The middle of an angle above 180 degrees is on the other side.
+  if (forward.cross(backward).dot(o) < 0.0) along = -along;
+  if (along.norm() < 1e-6) along = o.cross(forward - backward);
+  along.normalize();
+  double step = 0.3 * size;
+  while (step > 1e-14) {
+    const Vector3 p = (o + step * along).normalized();
+    if (is_in_kernel(p, ring)) return Insertion{p, true};
+    step *= 0.5;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
 constexpr std::size_t insertions_a_report = 4096;
 /// Neighbours of higher valence are moved only by the sweeps, because each insertion would visit
 /// their whole ring.
@@ -81,7 +200,6 @@ class Embedding {
   }
 
   std::vector<Vector3>& directions() { return directions_; }
-  SphereMapReport& report() { return report_; }
 
  private:
   void insert() {
@@ -91,7 +209,6 @@ class Embedding {
     for (int attempt = 0; !place && attempt < 8; ++attempt) {
       widen(v, undone.neighbour);
       place = find_place(v, undone.neighbour);
-      if (place) ++report_.mended_kernels;
     }
     if (!place) {
       throw Error(ErrorCode::NumericalFailure,
@@ -101,7 +218,6 @@ class Embedding {
                       "remeshing the scan there.");
     }
     directions_[v] = place->direction;
-    if (place->clipped) ++report_.clipped_kernels;
     order_.push_back(v);
     load_fan(v);
     fan_.improve(directions_[v]);
@@ -202,7 +318,6 @@ class Embedding {
   }
 
   void optimise(int sweeps, const Execution& execution) {
-    ++report_.levels;
     if (sweeps == 0) return;
     references_.resize(mesh_.triangles().size());
     for (const std::int32_t f : mesh_.present_triangles()) references_[f] = reference_of(f);
@@ -222,7 +337,6 @@ class Embedding {
         mesh_.visit_outgoing(v,
                              [&](std::int32_t h) { awake_[target_of(mesh_.triangles(), h)] = 1; });
       }
-      ++report_.sweeps;
       if (sweep % 4 == 0) {
         const double after = energy();
         if (before - after < level_tolerance * after) break;
@@ -255,7 +369,6 @@ class Embedding {
   MeshCollapse& mesh_;
   std::vector<Vector3> directions_;
   std::vector<std::int32_t> order_;
-  SphereMapReport report_;
   double area_unit_ = 1.0;
   std::vector<ReferenceTriangle> references_;
   std::vector<char> awake_;
@@ -264,122 +377,15 @@ class Embedding {
   std::vector<double> distances_;
 };
 
-/// Checks the exact signs of all triangles and the sum of their solid angles.
-void verify(const std::vector<Triangle>& triangles, const std::vector<Vector3>& directions,
-            const Execution& execution) {
-  struct Sums {
-    std::size_t turned = 0;
-    double solid_angle = 0.0;
-    Sums& operator+=(const Sums& other) {
-      turned += other.turned;
-      solid_angle += other.solid_angle;
-      return *this;
-    }
-  };
-  const Sums sums = execution.parallel_sum(triangles.size(), map_block, Sums{},
-                                           [&](std::size_t begin, std::size_t end) {
-                                             Sums part;
-                                             for (std::size_t f = begin; f < end; ++f) {
-                                               const Triangle& t = triangles[f];
-                                               const Vector3& a = directions[t[0]];
-                                               const Vector3& b = directions[t[1]];
-                                               const Vector3& c = directions[t[2]];
-                                               if (!counter_clockwise(a, b, c)) ++part.turned;
-                                               part.solid_angle += solid_angle(a, b, c);
-                                             }
-                                             return part;
-                                           });
-  // If all triangles are counter-clockwise, they cover the sphere a whole number of times.
-  if (sums.turned > 0 || !(std::abs(sums.solid_angle / (4.0 * pi) - 1.0) < 1e-3)) {
-    throw Error(ErrorCode::NumericalFailure,
-                "The map to the sphere has " + std::to_string(sums.turned) +
-                    " inverted triangles and covers the sphere " +
-                    format_number(sums.solid_angle / (4.0 * pi)) +
-                    " times. Remove needle-shaped faces, e.g. by remeshing the scan.");
-  }
-}
-
-struct Distortion {
-  double area = 0.0;
-  double angle_sum = 0.0;
-  double energy_sum = 0.0;
-  double largest_angle = 1.0;
-  double smallest_ratio = std::numeric_limits<double>::infinity();
-  double largest_ratio = 0.0;
-
-  Distortion& operator+=(const Distortion& other) {
-    area += other.area;
-    angle_sum += other.angle_sum;
-    energy_sum += other.energy_sum;
-    largest_angle = std::max(largest_angle, other.largest_angle);
-    smallest_ratio = std::min(smallest_ratio, other.smallest_ratio);
-    largest_ratio = std::max(largest_ratio, other.largest_ratio);
-    return *this;
-  }
-};
-
-/// `points` in the unit that gives their surface the area 4 pi.
-void measure_distortion(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
-                        const std::vector<Vector3>& directions, const Execution& execution,
-                        SphereMapReport& report) {
-  const Distortion sum = execution.parallel_sum(
-      triangles.size(), map_block, Distortion{}, [&](std::size_t begin, std::size_t end) {
-        Distortion part;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = triangles[f];
-          const Vector3 ab = points[t[1]] - points[t[0]];
-          const Vector3 ac = points[t[2]] - points[t[0]];
-          const double area = 0.5 * ab.cross(ac).norm();
-          const double ab_square = ab.squaredNorm();
-          const double ac_square = ac.squaredNorm();
-          // For a triangle without area, only rounding errors remain.
-          if (!(area > 1e-12 * std::max(ab_square, ac_square))) continue;
-          const Vector3& p = directions[t[0]];
-          const Vector3 pq = directions[t[1]] - p;
-          const Vector3 pr = directions[t[2]] - p;
-          const double image = 0.5 * pq.cross(pr).norm();
-          const double product = ab.dot(ac);
-          // Dirichlet energy: (1/2) sum of cot l^2, cotangents from edge products over 2 area.
-          const double dirichlet =
-              0.25 / area *
-              (product * (pr - pq).squaredNorm() + (ab_square - product) * pr.squaredNorm() +
-               (ac_square - product) * pq.squaredNorm());
-          const double ratio = image / area;
-          const double angle = dirichlet / (2.0 * image);
-          part.area += area;
-          part.angle_sum += area * angle;
-          part.energy_sum += dirichlet * (1.0 + 1.0 / (ratio * ratio));
-          part.largest_angle = std::max(part.largest_angle, angle);
-          part.smallest_ratio = std::min(part.smallest_ratio, ratio);
-          part.largest_ratio = std::max(part.largest_ratio, ratio);
-        }
-        return part;
-      });
-  if (!(sum.area > 0.0)) return;
-  report.mean_angle_distortion = sum.angle_sum / sum.area;
-  report.largest_angle_distortion = sum.largest_angle;
-  report.smallest_area_ratio = sum.smallest_ratio;
-  report.largest_area_ratio = sum.largest_ratio;
-  report.energy = sum.energy_sum / (4.0 * sum.area);
-}
-
 }  // namespace
 
-SphereMap map_to_sphere(const IndexedMesh& mesh, const Execution& execution) {
+std::vector<Vector3> map_to_sphere(const IndexedMesh& mesh, const Execution& execution) {
   MeshCollapse collapse(mesh, execution);
   collapse.collapse_to(4, execution.part(0.0, 0.4));
   Embedding embedding(collapse);
   embedding.run(execution.part(0.4, 1.0));
-  SphereMap result;
-  result.directions = std::move(embedding.directions());
-  result.report = embedding.report();
-  result.report.vertices = mesh.points.size();
-  result.report.triangles = mesh.triangles.size();
-  verify(mesh.triangles, result.directions, execution);
-  measure_distortion(collapse.points(), mesh.triangles, result.directions, execution,
-                     result.report);
   execution.report(1.0, "Mapping the scan to the sphere");
-  return result;
+  return std::move(embedding.directions());
 }
 
 }  // namespace wscvt

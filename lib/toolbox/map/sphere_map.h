@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -9,34 +10,27 @@
 
 namespace wscvt {
 
-/// Report of a map to the sphere. Distortions are of the triangles with an area above zero.
-struct SphereMapReport {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  int levels = 0;
-  int sweeps = 0;                   ///< over all levels
-  std::size_t clipped_kernels = 0;  ///< vertices moved to the centroid of their ring's kernel
-  std::size_t mended_kernels = 0;   ///< vertices whose ring had to be widened first
-  /// (s1 / s2 + s2 / s1) / 2 of the stretches s1, s2 of a triangle; 1: angles are kept. The mean is
-  /// over the area.
-  double mean_angle_distortion = 1.0;
-  double largest_angle_distortion = 1.0;
-  /// (Area on the sphere / 4 pi) / (area on the surface / its total): 1: areas are kept.
-  double smallest_area_ratio = 1.0;
-  double largest_area_ratio = 1.0;
-  /// Symmetric Dirichlet energy / energy of an isometry, mean over the area; >= 1.
-  double energy = 1.0;
+/// The position of an inserted vertex.
+struct Insertion {
+  Vector3 direction = Vector3::UnitZ();
+  bool clipped = false;  ///< the kernel's centroid was used, because the mean of the ring failed
 };
 
-/// A one-to-one map of a mesh to the unit sphere.
-struct SphereMap {
-  std::vector<Vector3> directions;  ///< unit vectors, one for each vertex
-  SphereMapReport report;
-};
+/// Finds a point of the ring's kernel: a position on the sphere for a vertex with neighbours at
+/// `ring` (unit vectors, counter-clockwise) such that all its triangles are counter-clockwise by
+/// exact predicates. `distances` are the distances to the neighbours on the surface.
+///
+/// The edges from ring[apex] to the others must triangulate the ring counter-clockwise, as after a
+/// collapse. Then the kernel contains points close to ring[apex]. Tries first the mean of the ring,
+/// weighted by inverse distance, then the centroid of the kernel clipped from the gnomonic plane
+/// about ring[apex], then points ever closer to ring[apex]. Returns nothing if the kernel is too
+/// thin for doubles.
+std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
+                                            const std::vector<double>& distances, std::size_t apex);
 
-/// Maps a closed mesh of genus 0, as check_mesh returns it, to the sphere. Every triangle is
-/// counter-clockwise seen from outside, by the exact sign of its determinant, and the triangles
-/// cover the sphere once. Triangles may have any shape.
+/// Maps a closed mesh of genus 0, as check_mesh returns it, to the sphere. Returns a unit vector
+/// for each vertex. Every triangle is counter-clockwise seen from outside, by the exact sign of its
+/// determinant, and the triangles cover the sphere once. Triangles may have any shape.
 ///
 /// The mesh is collapsed to a tetrahedron, and its vertices are put on the sphere. The other
 /// vertices return one by one, each into the kernel of its ring. Each level lowers the symmetric
@@ -47,6 +41,6 @@ struct SphereMap {
 ///
 /// Throws Error(InvalidInput) if the mesh is not one closed surface of genus 0,
 /// Error(NumericalFailure) if doubles are too coarse for its triangles, and Error(Cancelled).
-SphereMap map_to_sphere(const IndexedMesh& mesh, const Execution& execution);
+std::vector<Vector3> map_to_sphere(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt

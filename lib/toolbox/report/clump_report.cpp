@@ -10,10 +10,10 @@
 
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/report/csv_table.h"
+#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
-#include "wscvt/report/mass_table.h"
+#include "wscvt/report/open_table.h"
 #include "wscvt/report/page_figures.h"
 
 namespace wscvt {

@@ -10,8 +10,8 @@
 #include <optional>
 #include <string_view>
 
+#include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/distribution.h"
-#include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"

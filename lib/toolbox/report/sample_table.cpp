@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "wscvt/base/csv_reader.h"
+#include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"

@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "toolbox/clump/first_contact.h"
+#include "toolbox/sample/grain_table.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/voxel_resolution.h"
@@ -79,5 +81,11 @@ std::string shape_row(const std::string& grain, const std::string& file, const R
 /// Returns the record of a grain without a remesh or without descriptors.
 std::string failed_shape_row(const std::string& grain, const std::string& error,
                              const ShapeMeasures& measures);
+
+/// Returns sentences for a log about the voxels of a sample, from its table of shapes with the
+/// columns of the resolution: how many voxels across the grains are, what the voxels did to the
+/// main descriptors, and whether there are more nodes than the voxels resolve. Empty if the size of
+/// no grain's voxels is known.
+std::vector<std::string> voxel_lines(const GrainTable& shapes);
 
 }  // namespace wscvt

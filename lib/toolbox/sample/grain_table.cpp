@@ -11,8 +11,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/foreign_columns.h"
-#include "wscvt/base/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/portable_math.h"

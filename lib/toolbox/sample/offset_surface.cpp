@@ -158,7 +158,7 @@ OffsetSeries mirrored_offset(const OffsetSeries& offset, const Vector3& signs) {
 }
 
 MappedSurface spread_over_directions(const IndexedMesh& mesh, const Execution& execution) {
-  std::vector<Vector3> places = map_to_sphere(mesh, execution).directions;
+  std::vector<Vector3> places = map_to_sphere(mesh, execution);
   const HarmonicGrid grid(coarse_degree, coarse_rows);
   OffsetSeries series;
   {

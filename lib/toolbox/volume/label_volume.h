@@ -12,7 +12,6 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 

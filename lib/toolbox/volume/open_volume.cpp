@@ -11,7 +11,6 @@
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/sentence.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "toolbox/volume/segmentation.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/base/sentence.h"
 #include "wscvt/report/picture.h"
 #include "wscvt/report/report.h"
 

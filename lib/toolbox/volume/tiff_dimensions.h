@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/sentence.h"
 
 namespace wscvt {
 

@@ -81,4 +81,10 @@ void visit_outgoing(const std::vector<std::int32_t>& opposite, std::int32_t star
   } while (h != start);
 }
 
+/// Returns for every half-edge (see half_edges.h) the next half-edge on its edge, in a ring: itself
+/// on a boundary edge, the opposite half-edge on a manifold edge. If more than two faces meet, it
+/// is the next higher half-edge, and after the last the first. The orientation of the faces does
+/// not matter.
+std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& execution);
+
 }  // namespace wscvt

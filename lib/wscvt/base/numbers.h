@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "wscvt/base/portable_math.h"
@@ -23,7 +24,15 @@ inline double equivalent_radius(double volume) { return portable::cbrt(3.0 * vol
 /// the middle of the first and of the last value it is that value. All quantiles of this library
 /// are Hazen's (method="hazen" of NumPy), because these exist with weights too, see Distribution.
 /// NaN for no value.
-double quantile(const std::vector<double>& ascending, double fraction);
+inline double quantile(const std::vector<double>& ascending, double fraction) {
+  if (ascending.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto last = static_cast<double>(ascending.size() - 1);
+  const double place = std::clamp(fraction * (last + 1.0) - 0.5, 0.0, last);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, ascending.size() - 1);
+  const double part = place - static_cast<double>(below);
+  return ascending[below] + part * (ascending[above] - ascending[below]);
+}
 
 /// Returns 0 up to x = 0, 1 from x = 1 on, and a smooth value between.
 inline double smooth_step(double x) {

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/sentence.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
@@ -155,7 +155,7 @@ struct FlagOption {
 
 /// Returns a number as a user would type it: as many digits as it needs, and no exponent if a
 /// person would write none (see format_typed, text_format.h).
-std::string typed_text(double value);
+inline std::string typed_text(double value) { return format_typed(value); }
 
 template <class Number>
 std::string typed_text(Number value) {
@@ -163,7 +163,7 @@ std::string typed_text(Number value) {
   return std::to_string(value);
 }
 
-// Mentions of these options in a sentence, see sentence.h.
+// Mentions of these options in a sentence, see Sentence.
 template <class Number>
 Sentence mention(const NumberOption<Number>& option) {
   return mention(std::string(option.key));
@@ -181,7 +181,14 @@ Sentence mention(Enumeration value) {
 }
 
 /// Returns a text with a capital first letter, for the beginning of a sentence.
-std::string capitalised(std::string_view text);
+inline std::string capitalised(std::string_view text) {
+  std::string result(text);
+  // Not std::toupper, because it depends on the locale.
+  if (!result.empty() && result[0] >= 'a' && result[0] <= 'z') {
+    result[0] = static_cast<char>(result[0] - 'a' + 'A');
+  }
+  return result;
+}
 
 /// Returns the range as text: "4 to 1000000", "above 0", "0 or more", "0 to below 1", "above 0 and
 /// below 2", "above 0 and at most 2".

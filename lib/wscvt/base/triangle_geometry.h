@@ -12,7 +12,8 @@ namespace wscvt {
 
 /// Returns six times the signed volume of the tetrahedron of the triangle a, b, c and the origin.
 /// It is positive if the triangle is counter-clockwise seen from the side away from the origin.
-/// Rounding may change the sign: if that matters, use the exact predicates of orientation.h.
+/// Rounding may change the sign: if that matters, use the exact predicates of
+/// sphere_triangulation.h.
 inline double six_volumes(const Vector3& a, const Vector3& b, const Vector3& c) {
   return a.dot(b.cross(c));
 }
@@ -83,5 +84,17 @@ std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,
 
 /// Returns a third of the area of its triangles for each vertex. The sum is the mesh's area.
 std::vector<double> vertex_areas(const IndexedMesh& mesh);
+
+/// Steps above this fraction of the mean edge are coarse. Rounding moves corners by up to half a
+/// step, which turns the edges of a face by about a degree.
+inline constexpr double coarse_step = 0.03;
+
+/// Returns the mean edge length over faces spread evenly over the list, enough for two digits;
+/// length. 0 without faces. All corners are valid.
+double sampled_mean_edge(const IndexedMesh& mesh);
+
+/// Returns the step of single precision at the largest coordinate of a corner, as a fraction of the
+/// mean edge. 0 if this is not above 0 and finite. All corners are valid.
+double single_precision_step(const IndexedMesh& mesh);
 
 }  // namespace wscvt

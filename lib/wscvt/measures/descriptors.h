@@ -137,7 +137,7 @@ struct FormRatios {
   double krumbein_sphericity = 0.0;
 };
 
-/// Distances across a body (feret_diameters.h); lengths.
+/// Distances across a body (see feret_diameters); lengths.
 struct FeretDiameters {
   double largest = 0.0;       ///< between two points of the body; L of NIST
   double smallest = 0.0;      ///< between two parallel planes that enclose the body
@@ -165,7 +165,7 @@ struct OrientationTensor {
   double rodness = 0.0;                   ///< (f2 - f3) / f1, towards 1 for a rod
 };
 
-/// Wadell's roundness of a body; roundness.h has the formula and the convention of its mean.
+/// Wadell's roundness of a body; wadell_roundness has the formula and the convention of its mean.
 struct Roundness {
   /// In (0, 1]; 1 if there are no corners, NaN if the mesh is too coarse.
   double roundness = 1.0;
@@ -176,8 +176,8 @@ struct Roundness {
 };
 
 /// Height parameters after ISO 25178-2. The reference surface is the surface without waves shorter
-/// than the cut-off length (roughness.h), and A is its area. The heights z are measured from it,
-/// minus their mean.
+/// than the cut-off length (surface_roughness), and A is its area. The heights z are measured from
+/// it, minus their mean.
 struct Roughness {
   double cutoff = 0.0;     ///< nesting index of the L-filter: a wavelength; length
   double sa = 0.0;         ///< (1/A) integral |z| dA; length
@@ -218,8 +218,7 @@ struct DetailedDescriptors {
   /// Whether the printed Sdq exists: false if the volume centroid is outside the body or the
   /// overhang exceeds largest_measured_overhang. With less overhang it uses the outermost surface.
   bool has_radius = false;
-  double printed_sdq =
-      0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (printed_sdq.h)
+  double printed_sdq = 0.0;  ///< the paper's eq. 17, in the mesh's own pose; no unit (printed_sdq)
 };
 
 /// Measures a closed outward mesh as checked by check_mesh, in about a second for 100,000 faces.

@@ -70,9 +70,9 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
   constexpr std::size_t followed = 32;
   constexpr std::size_t finished = 6;
   constexpr std::size_t compared = 3;
-  constexpr double coarse_step = 0.01;
-  constexpr double medium_step = 1e-3;
-  constexpr double last_step = 1e-6;
+  constexpr double coarse_turn = 0.01;
+  constexpr double medium_turn = 1e-3;
+  constexpr double last_turn = 1e-6;
   const auto by_value = [](const DirectionMinimum& a, const DirectionMinimum& b) {
     return a.value < b.value;
   };
@@ -99,7 +99,7 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
   keep(followed);
   for (DirectionMinimum& one : found) {
     execution.report(0.3, stage);
-    one = descend(coarse, one, spacing, coarse_step);
+    one = descend(coarse, one, spacing, coarse_turn);
   }
   const auto follow_by = [&](const auto& next, double first, double last) {
     for (DirectionMinimum& one : found) {
@@ -108,9 +108,9 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
     }
   };
   keep(finished);
-  follow_by(medium, 2.0 * coarse_step, medium_step);
+  follow_by(medium, 2.0 * coarse_turn, medium_turn);
   keep(compared);
-  follow_by(function, 4.0 * medium_step, last_step);
+  follow_by(function, 4.0 * medium_turn, last_turn);
   keep(1);
   return found.front();
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/feret_diameters.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,12 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/direction_search.h"
-#include "wscvt/measures/planar_hull.h"
 
 namespace wscvt {
 

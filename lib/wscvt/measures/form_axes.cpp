@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/form_axes.h"
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,11 +7,12 @@
 #include <cstddef>
 #include <string>
 
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/direction_search.h"
-#include "wscvt/measures/planar_hull.h"
 #include "wscvt/repair/coordinates.h"
 
 namespace wscvt {

@@ -6,9 +6,8 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/mesh_check.h"
-#include "wscvt/repair/voxel_steps.h"
+#include "wscvt/repair/scan_advice.h"
 #include "wscvt/surface/crossing_pairs.h"
 
 namespace wscvt {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/inscribed_sphere.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/face_boxes.h"
 
 namespace wscvt {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/roundness.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,6 +10,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/surface/ball_curvature.h"
 
 namespace wscvt {

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/measures/principal_axes.h"
+#include "wscvt/repair/overhangs.h"
+#include "wscvt/surface/mesh_surface.h"
 
 namespace wscvt {
 
@@ -202,6 +205,141 @@ MassProperties mass_properties(const ShapeDescriptors& descriptors) {
   return {descriptors.volume, descriptors.centroid, descriptors.inertia_tensor,
           (turn.transpose() * descriptors.inertia_tensor * turn).diagonal(),
           descriptors.principal_axes};
+}
+
+namespace {
+
+constexpr std::size_t axes_block = 8192;
+
+/// Below this skewness along an axis, a body counts as symmetric there. Rounding errors are
+/// smaller.
+constexpr double smallest_skewness = 1e-9;
+
+/// The volume, and the third moments along two axes, so that the mesh is read once.
+struct AxisMoments {
+  double volume = 0.0;
+  Eigen::Vector2d third = Eigen::Vector2d::Zero();
+
+  AxisMoments& operator+=(const AxisMoments& other) {
+    volume += other.volume;
+    third += other.third;
+    return *this;
+  }
+};
+
+/// Sums over the tetrahedra of the faces and the centroid. A coordinate is linear in each
+/// tetrahedron, with the values 0, a, b and c at its corners. The mean of its cube is then 1/20 of
+/// the sum of all products of three of the values, aaa + aab + ... + ccc.
+AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
+                          const Vector3& centroid, const Execution& execution) {
+  return execution.parallel_sum(
+      mesh.triangles.size(), axes_block, AxisMoments(), [&](std::size_t begin, std::size_t end) {
+        AxisMoments part;
+        for (std::size_t f = begin; f < end; ++f) {
+          const Triangle& t = mesh.triangles[f];
+          const Vector3 corner_a = mesh.points[t[0]] - centroid;
+          const Vector3 corner_b = mesh.points[t[1]] - centroid;
+          const Vector3 corner_c = mesh.points[t[2]] - centroid;
+          const Eigen::Array2d a = axes.transpose() * corner_a;
+          const Eigen::Array2d b = axes.transpose() * corner_b;
+          const Eigen::Array2d c = axes.transpose() * corner_c;
+          const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
+          const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
+          part.volume += volume;
+          part.third += (volume / 20.0 * products).matrix();
+        }
+        return part;
+      });
+}
+
+/// Returns the axis or its opposite. `skewness` (no unit) is the third moment of the body's points
+/// along the axis over the cube of their spread.
+Vector3 with_sign(const Vector3& axis, double skewness) {
+  if (std::abs(skewness) > smallest_skewness) return skewness > 0.0 ? axis : Vector3(-axis);
+  Eigen::Index largest = 0;
+  // Components that differ only by rounding count as equal.
+  for (Eigen::Index k = 1; k < 3; ++k) {
+    if (std::abs(axis[k]) > std::abs(axis[largest]) + smallest_skewness) largest = k;
+  }
+  return axis[largest] > 0.0 ? axis : Vector3(-axis);
+}
+
+}  // namespace
+
+Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centroid,
+                                  const Eigen::Matrix3d& inertia_tensor,
+                                  const Execution& execution) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_tensor);
+  const Vector3& moments_of_inertia = solver.eigenvalues();
+  const AxisMoments moments =
+      moments_along(solver.eigenvectors().leftCols<2>(), mesh, centroid, execution);
+  Eigen::Matrix3d axes;
+  for (int k = 0; k < 2; ++k) {
+    // The second moment along an axis follows from the moments of inertia: integral of x_k^2 dV =
+    // (I_1 + I_2 + I_3) / 2 - I_k.
+    const double second = 0.5 * moments_of_inertia.sum() - moments_of_inertia[k];
+    const double skewness =
+        moments.third[k] * std::sqrt(moments.volume) / portable::pow(second, 1.5);
+    axes.col(k) = with_sign(solver.eigenvectors().col(k), skewness);
+  }
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  Eigen::Quaterniond turn(axes);
+  turn.normalize();
+  if (turn.w() < 0.0) turn.coeffs() *= -1.0;
+  return turn;
+}
+
+namespace {
+
+/// Parallels of the midpoint rule for the printed Sdq.
+constexpr int printed_sdq_rings = 128;
+
+}  // namespace
+
+DetailedDescriptors describe_shape_in_detail(const IndexedMesh& mesh,
+                                             const DetailedOptions& options,
+                                             const Execution& execution) {
+  require_in_range(options.roundness_ball, roundness_ball_option);
+  require_in_range(options.roughness_cutoff, roughness_cutoff_option);
+  DetailedDescriptors result;
+  execution.report(0.0, "Measuring the shape");
+  result.basic = describe_shape(mesh, execution);
+  result.equivalent_diameter = portable::cbrt(6.0 * result.basic.volume / pi);
+  const Vector3 axes = 2.0 * result.basic.inertia_semi_axes;
+  result.inertia_axes = {axes[0], axes[1], axes[2]};
+  result.inertia_ratios = form_ratios(result.inertia_axes);
+  result.orientation = orientation_tensor(mesh, execution);
+
+  execution.report(0.1, "Measuring the convex hull");
+  const IndexedMesh hull = convex_hull(mesh.points, execution);
+  result.convexity = std::min(1.0, result.basic.volume / describe_shape(hull, execution).volume);
+  execution.report(0.2, "Turning the bounding box");
+  result.box_axes = oriented_box_axes(hull.points, execution.part(0.2, 0.25));
+  result.box_ratios = form_ratios(result.box_axes);
+  result.feret = feret_diameters(mesh, hull, execution.part(0.25, 0.3));
+  result.mean_curvature_integral = mean_curvature_integral(mesh, execution);
+  result.inscribed_sphere = largest_inscribed_sphere(mesh, execution.part(0.3, 0.7));
+
+  execution.report(0.7, "Measuring roundness");
+  result.roundness = wadell_roundness(mesh, result.inscribed_sphere.radius, options.roundness_ball,
+                                      execution.part(0.7, 0.8));
+  result.least_cutoff = least_cutoff(mesh);
+  result.roughness.cutoff = options.roughness_cutoff * 0.5 * result.equivalent_diameter;
+  result.has_roughness = result.roughness.cutoff >= result.least_cutoff;
+  if (result.has_roughness) {
+    result.roughness = surface_roughness(mesh, result.roughness.cutoff, execution.part(0.8, 0.95));
+  }
+
+  execution.report(0.95, "Measuring the printed Sdq");
+  result.overhang_fraction = overhang_solid_angle(mesh, result.basic.centroid, execution);
+  result.has_radius = result.overhang_fraction <= largest_measured_overhang;
+  if (result.has_radius) {
+    const MeshSurface surface(mesh, result.basic.centroid, 0.5 * result.equivalent_diameter,
+                              result.overhang_fraction, execution);
+    result.printed_sdq = printed_sdq(surface, printed_sdq_rings, execution);
+  }
+  execution.report(1.0, "Measuring the shape");
+  return result;
 }
 
 }  // namespace wscvt

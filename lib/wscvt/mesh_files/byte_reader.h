@@ -88,7 +88,57 @@ Value load(const char* bytes) {
       reinterpret_cast<const unsigned char*>(bytes));
 }
 
+/// The types of numbers in binary files.
+enum class Stored { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float32, Float64 };
+
+/// Returns the number of bytes of a type.
+inline std::size_t size_of(Stored type) {
+  constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+/// Returns a number of a binary file.
+template <class Number>
+Number load_as(Stored type, boost::endian::order order, const char* bytes) {
+  const auto read = [&](auto zero) {
+    using Value = decltype(zero);
+    return static_cast<Number>(order == boost::endian::order::little
+                                   ? load<Value, boost::endian::order::little>(bytes)
+                                   : load<Value, boost::endian::order::big>(bytes));
+  };
+  switch (type) {
+    case Stored::Int8:
+      return read(std::int8_t());
+    case Stored::Uint8:
+      return read(std::uint8_t());
+    case Stored::Int16:
+      return read(std::int16_t());
+    case Stored::Uint16:
+      return read(std::uint16_t());
+    case Stored::Int32:
+      return read(std::int32_t());
+    case Stored::Uint32:
+      return read(std::uint32_t());
+    case Stored::Int64:
+      return read(std::int64_t());
+    case Stored::Uint64:
+      return read(std::uint64_t());
+    case Stored::Float32:
+      return read(float());
+    case Stored::Float64:
+      break;
+  }
+  return read(double());
+}
+
 /// The advice for a file with wrong content.
 inline constexpr const char* export_again = ". Export it again from the program it came from.";
+
+/// Whether a file begins as a gzip file.
+bool is_gzip(const std::string& path);
+
+/// Returns the unpacked content of a gzip file. Throws Error(InputOutput) if it cannot be read, is
+/// cut or damaged; Error(Cancelled).
+std::string gzip_content(const std::string& path, const Execution& execution);
 
 }  // namespace wscvt

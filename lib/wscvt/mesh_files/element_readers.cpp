@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -241,9 +242,9 @@ std::size_t corners_of_abaqus(const std::string& type) {
 
 }  // namespace
 
-IndexedMesh read_gmsh(ByteReader& reader) { return GmshReader(reader).read(); }
+void read_gmsh(ByteReader& reader, MeshFile& file) { file.mesh = GmshReader(reader).read(); }
 
-IndexedMesh read_abaqus(ByteReader& reader) {
+void read_abaqus(ByteReader& reader, MeshFile& file) {
   ElementMesh mesh(reader);
   enum class Block { Other, Nodes, Faces } block = Block::Other;
   std::size_t corners = 0;
@@ -292,7 +293,7 @@ IndexedMesh read_abaqus(ByteReader& reader) {
       mesh.add_face(nodes);
     }
   }
-  return mesh.mesh();
+  file.mesh = mesh.mesh();
 }
 
 }  // namespace wscvt

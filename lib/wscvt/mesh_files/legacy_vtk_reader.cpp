@@ -10,66 +10,35 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/mesh_files/face_names.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
-#include "wscvt/mesh_files/vtk_polygons.h"
 
 namespace wscvt {
 
 namespace {
 
-/// VTK's names of number types, and their form in a binary file: the most significant byte first.
-enum class VtkType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Int64, Uint64, Float, Double };
-
 struct NamedType {
   std::string_view name;
-  VtkType type;
-  std::size_t size;
+  Stored type;
 };
 
-constexpr NamedType vtk_types[] = {{"char", VtkType::Int8, 1},
-                                   {"signed_char", VtkType::Int8, 1},
-                                   {"unsigned_char", VtkType::Uint8, 1},
-                                   {"short", VtkType::Int16, 2},
-                                   {"unsigned_short", VtkType::Uint16, 2},
-                                   {"int", VtkType::Int32, 4},
-                                   {"unsigned_int", VtkType::Uint32, 4},
-                                   {"long", VtkType::Int64, 8},
-                                   {"unsigned_long", VtkType::Uint64, 8},
-                                   {"vtktypeint64", VtkType::Int64, 8},
-                                   {"vtktypeuint64", VtkType::Uint64, 8},
-                                   {"vtkidtype", VtkType::Int32, 4},
-                                   {"float", VtkType::Float, 4},
-                                   {"double", VtkType::Double, 8}};
-
-template <class Number>
-Number number_at(VtkType type, const char* bytes) {
-  constexpr auto big = boost::endian::order::big;
-  switch (type) {
-    case VtkType::Int8:
-      return static_cast<Number>(load<std::int8_t, big>(bytes));
-    case VtkType::Uint8:
-      return static_cast<Number>(load<std::uint8_t, big>(bytes));
-    case VtkType::Int16:
-      return static_cast<Number>(load<std::int16_t, big>(bytes));
-    case VtkType::Uint16:
-      return static_cast<Number>(load<std::uint16_t, big>(bytes));
-    case VtkType::Int32:
-      return static_cast<Number>(load<std::int32_t, big>(bytes));
-    case VtkType::Uint32:
-      return static_cast<Number>(load<std::uint32_t, big>(bytes));
-    case VtkType::Int64:
-      return static_cast<Number>(load<std::int64_t, big>(bytes));
-    case VtkType::Uint64:
-      return static_cast<Number>(load<std::uint64_t, big>(bytes));
-    case VtkType::Float:
-      return static_cast<Number>(load<float, big>(bytes));
-    case VtkType::Double:
-      break;
-  }
-  return static_cast<Number>(load<double, big>(bytes));
-}
+/// VTK's names of number types. In a binary file the most significant byte is first.
+constexpr NamedType vtk_types[] = {{"char", Stored::Int8},
+                                   {"signed_char", Stored::Int8},
+                                   {"unsigned_char", Stored::Uint8},
+                                   {"short", Stored::Int16},
+                                   {"unsigned_short", Stored::Uint16},
+                                   {"int", Stored::Int32},
+                                   {"unsigned_int", Stored::Uint32},
+                                   {"long", Stored::Int64},
+                                   {"unsigned_long", Stored::Uint64},
+                                   {"vtktypeint64", Stored::Int64},
+                                   {"vtktypeuint64", Stored::Uint64},
+                                   {"vtkidtype", Stored::Int32},
+                                   {"float", Stored::Float32},
+                                   {"double", Stored::Float64}};
 
 class LegacyVtkReader {
  public:
@@ -137,7 +106,7 @@ class LegacyVtkReader {
     } else if (key == "vertices" || key == "lines") {
       other_cells_ += polygons_of(fields).ends.size();
     } else if (key == "cell_types") {
-      cell_types_ = numbers<std::int64_t>(VtkType::Int32, 4, count_in(fields));
+      cell_types_ = numbers<std::int64_t>(Stored::Int32, count_in(fields));
     } else {
       reader_.fail_line("has " + in_quotes(key) + " instead of a part of a mesh" + export_again);
     }
@@ -168,11 +137,11 @@ class LegacyVtkReader {
           }
         } else if (key == "scalars") {
           fields.next();
-          const NamedType& type = type_in(fields);
+          const Stored type = type_in(fields);
           const std::string_view components = fields.next();
           if (!components.empty() && components != "1") return;
           reader_.filled_line();  // its table of colours
-          take(numbers<double>(type.type, type.size, data_count_));
+          take(numbers<double>(type, data_count_));
         } else if (key == "field") {
           fields.next();
           const std::size_t arrays = count_in(fields);
@@ -188,11 +157,11 @@ class LegacyVtkReader {
 
   void read_points(TextFields& fields) {
     const std::size_t count = count_in(fields);
-    const NamedType& type = type_in(fields);
+    const Stored type = type_in(fields);
     if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
       reader_.fail("declares more points than can be numbered. Reduce the scan first.");
     }
-    const auto coordinates = numbers<double>(type.type, type.size, 3 * count);
+    const auto coordinates = numbers<double>(type, 3 * count);
     mesh_.points.clear();
     mesh_.points.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -213,7 +182,7 @@ class LegacyVtkReader {
       result.corners = named_numbers(size);
       return result;
     }
-    const auto all = numbers<std::int64_t>(VtkType::Int32, 4, size);
+    const auto all = numbers<std::int64_t>(Stored::Int32, size);
     for (std::size_t at = 0, k = 0; k < count; ++k) {
       const std::int64_t length = at < all.size() ? all[at] : -1;
       if (length < 0 || static_cast<std::uint64_t>(length) > all.size() - at - 1) {
@@ -234,11 +203,11 @@ class LegacyVtkReader {
     fields.next();
     const std::string line(fields.rest());
     TextFields rest(line);
-    const NamedType& type = type_in(rest);
-    if (type.type == VtkType::Float || type.type == VtkType::Double) {
+    const Stored type = type_in(rest);
+    if (type == Stored::Float32 || type == Stored::Float64) {
       reader_.fail_line("announces corners that are not whole numbers" + std::string(export_again));
     }
-    return numbers<std::int64_t>(type.type, type.size, count);
+    return numbers<std::int64_t>(type, count);
   }
 
   std::vector<double> next_array() {
@@ -250,9 +219,9 @@ class LegacyVtkReader {
     if (lower_case(TextFields(fields.rest()).next()) == "string") {
       reader_.fail_line("is an array of texts, which is not supported. Save only the mesh.");
     }
-    const NamedType& type = type_in(fields);
+    const Stored type = type_in(fields);
     if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples) fail_cut();
-    return numbers<double>(type.type, type.size, components * tuples);
+    return numbers<double>(type, components * tuples);
   }
 
   std::size_t count_in(TextFields& fields) {
@@ -265,7 +234,7 @@ class LegacyVtkReader {
     return static_cast<std::size_t>(*value);
   }
 
-  const NamedType& type_in(TextFields& fields) {
+  Stored type_in(TextFields& fields) {
     const std::string name = lower_case(fields.next());
     const auto* const found =
         std::find_if(std::begin(vtk_types), std::end(vtk_types),
@@ -273,11 +242,12 @@ class LegacyVtkReader {
     if (found == std::end(vtk_types)) {
       reader_.fail_line("has " + in_quotes(name) + " instead of a type of numbers" + export_again);
     }
-    return *found;
+    return found->type;
   }
 
   template <class Number>
-  std::vector<Number> numbers(VtkType type, std::size_t size, std::size_t count) {
+  std::vector<Number> numbers(Stored type, std::size_t count) {
+    const std::size_t size = size_of(type);
     // A number in text needs a digit and a blank.
     const std::size_t least = is_text_ ? 2 : size;
     if (count > (reader_.remaining() + 1) / least) fail_cut();
@@ -290,7 +260,7 @@ class LegacyVtkReader {
     for (std::size_t k = 0; k < count; ++k) {
       const char* const bytes = reader_.next(size);
       if (bytes == nullptr) fail_cut();
-      result.push_back(number_at<Number>(type, bytes));
+      result.push_back(load_as<Number>(type, boost::endian::order::big, bytes));
     }
     return result;
   }
@@ -364,13 +334,8 @@ class LegacyVtkReader {
 
 }  // namespace
 
-IndexedMesh read_legacy_vtk(ByteReader& reader) {
-  std::vector<NamedFaces> names;
-  return read_legacy_vtk_labels(reader, names);
-}
-
-IndexedMesh read_legacy_vtk_labels(ByteReader& reader, std::vector<NamedFaces>& names) {
-  return LegacyVtkReader(reader).read(names);
+void read_legacy_vtk(ByteReader& reader, MeshFile& file) {
+  file.mesh = LegacyVtkReader(reader).read(file.named_faces);
 }
 
 }  // namespace wscvt

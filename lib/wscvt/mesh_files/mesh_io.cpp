@@ -27,13 +27,10 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/byte_reader.h"
-#include "wscvt/mesh_files/face_names.h"
-#include "wscvt/mesh_files/gzip_content.h"
 #include "wscvt/mesh_files/readers.h"
-#include "wscvt/mesh_files/single_precision.h"
 #include "wscvt/mesh_files/text_writers.h"
-#include "wscvt/mesh_files/texture_files.h"
 
 namespace wscvt {
 
@@ -195,7 +192,7 @@ void write_plain_vtp(std::ostream& stream, const IndexedMesh& mesh) { write_vtp(
 
 struct Format {
   std::string_view extension;
-  IndexedMesh (*read)(ByteReader& reader);  ///< null: only written
+  void (*read)(ByteReader& reader, MeshFile& file);  ///< null: only written
   /// Null: only read.
   bool (*write)(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates);
   bool is_scan = true;  ///< else a file in a folder counts only if it is named
@@ -258,26 +255,7 @@ const Format& format_of(const std::string& path, MeshUse use) {
 
 MeshFile read_as(ByteReader& reader, const Format& format) {
   MeshFile file;
-  if (format.read == read_ply) {
-    file.mesh = read_ply_attributes(reader, file.attributes);
-    for (const MeshAttribute& labels : file.attributes.of_faces) {
-      constexpr std::string_view colours[] = {"red", "green", "blue", "alpha"};
-      if (std::find(std::begin(colours), std::end(colours), labels.name) == std::end(colours)) {
-        append_labels(labels.values, file.mesh.triangles.size(), file.named_faces);
-      }
-    }
-  } else if (format.read == read_obj) {
-    file.mesh =
-        read_obj_attributes(reader, file.attributes, file.material_libraries, file.named_faces);
-  } else if (format.read == read_stl) {
-    file.mesh = read_stl_solids(reader, file.named_faces);
-  } else if (format.read == read_vtp) {
-    file.mesh = read_vtp_labels(reader, file.named_faces);
-  } else if (format.read == read_legacy_vtk) {
-    file.mesh = read_legacy_vtk_labels(reader, file.named_faces);
-  } else {
-    file.mesh = format.read(reader);
-  }
+  format.read(reader, file);
   file.warnings = reader.warnings();
   return file;
 }

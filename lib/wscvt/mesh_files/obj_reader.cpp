@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "wscvt/mesh_files/face_names.h"
-#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -41,17 +41,9 @@ std::optional<std::string_view> next_statement(ByteReader& reader, std::string& 
 
 constexpr std::int32_t no_number = -1;
 
-/// What a file has besides its mesh.
-struct Extras {
-  MeshAttributes& attributes;
-  std::vector<std::string>& material_libraries;
-  std::vector<NamedFaces>& named_faces;
-};
-
 class ObjReader {
  public:
-  /// Without `file`, skips colours, texture and names.
-  ObjReader(ByteReader& reader, const Extras* file) : reader_(reader), file_(file) {}
+  ObjReader(ByteReader& reader, MeshFile& file) : reader_(reader), file_(file) {}
 
   IndexedMesh read() {
     std::string joined;
@@ -62,9 +54,9 @@ class ObjReader {
         add_vertex(fields);
       } else if (keyword == "f") {
         add_face(fields);
-      } else if (file_ != nullptr && (keyword == "o" || keyword == "g")) {
+      } else if (keyword == "o" || keyword == "g") {
         (keyword == "o" ? objects_ : groups_).begin(std::string(trimmed(fields.rest())));
-      } else if (file_ != nullptr) {
+      } else {
         add_to_texture(keyword, fields);
       }
     }
@@ -79,8 +71,8 @@ class ObjReader {
     if (has_faces_ && mesh_.triangles.empty()) {
       reader_.fail("has faces, but none of them has three corners" + std::string(export_again));
     }
-    if (file_ != nullptr) finish_attributes();
-    if (file_ != nullptr) append_names();
+    finish_attributes();
+    for (FaceNames* names : {&objects_, &groups_}) names->append_to(file_.named_faces);
     return std::move(mesh_);
   }
 
@@ -103,7 +95,7 @@ class ObjReader {
     }
     // A weight or a colour may follow.
     mesh_.points.push_back(point);
-    if (file_ != nullptr) add_colour(fields);
+    add_colour(fields);
   }
 
   void add_colour(TextFields fields) {
@@ -128,9 +120,9 @@ class ObjReader {
       const auto [known, is_new] =
           materials_.emplace(trimmed(fields.rest()), static_cast<std::int32_t>(materials_.size()));
       material_ = known->second;
-      if (is_new) file_->attributes.texture.names.push_back(known->first);
+      if (is_new) file_.attributes.texture.names.push_back(known->first);
     } else if (keyword == "mtllib") {
-      file_->material_libraries.emplace_back(trimmed(fields.rest()));
+      file_.material_libraries.emplace_back(trimmed(fields.rest()));
     }
   }
 
@@ -156,14 +148,14 @@ class ObjReader {
       for (const Vector3& colour : colours_) {
         part.values.push_back(255.0 * colour[static_cast<Eigen::Index>(k)]);
       }
-      file_->attributes.of_vertices.push_back(std::move(part));
+      file_.attributes.of_vertices.push_back(std::move(part));
     }
-    if (places_.empty() || file_->material_libraries.empty() ||
-        file_->attributes.texture.names.empty()) {
-      file_->attributes.texture = MeshTexture();
+    if (places_.empty() || file_.material_libraries.empty() ||
+        file_.attributes.texture.names.empty()) {
+      file_.attributes.texture = MeshTexture();
       return;
     }
-    MeshTexture& texture = file_->attributes.texture;
+    MeshTexture& texture = file_.attributes.texture;
     texture.picture_of_face = std::move(material_of_face_);
     texture.corners.reserve(place_numbers_.size());
     for (const Triangle& numbers : place_numbers_) {
@@ -175,10 +167,6 @@ class ObjReader {
       }
       texture.corners.push_back(corners);
     }
-  }
-
-  void append_names() {
-    for (FaceNames* names : {&objects_, &groups_}) names->append_to(file_->named_faces);
   }
 
   void add_face(TextFields fields) {
@@ -205,10 +193,9 @@ class ObjReader {
         largest_index_line_ = reader_.line_number();
       }
       corners_.push_back(static_cast<std::int32_t>(index));
-      if (file_ != nullptr) corner_places_.push_back(place_number(field));
+      corner_places_.push_back(place_number(field));
     }
     add_fan(corners_.data(), corners_.size(), mesh_.triangles);
-    if (file_ == nullptr) return;
     objects_.add_to(mesh_.triangles.size());
     groups_.add_to(mesh_.triangles.size());
     add_fan(corner_places_.data(), corner_places_.size(), place_numbers_);
@@ -216,7 +203,7 @@ class ObjReader {
   }
 
   ByteReader& reader_;
-  const Extras* file_;
+  MeshFile& file_;
   IndexedMesh mesh_;
   std::vector<std::int32_t> corners_;
   std::vector<std::int32_t> corner_places_;
@@ -235,13 +222,6 @@ class ObjReader {
 
 }  // namespace
 
-IndexedMesh read_obj(ByteReader& reader) { return ObjReader(reader, nullptr).read(); }
-
-IndexedMesh read_obj_attributes(ByteReader& reader, MeshAttributes& attributes,
-                                std::vector<std::string>& libraries,
-                                std::vector<NamedFaces>& names) {
-  const Extras extras{attributes, libraries, names};
-  return ObjReader(reader, &extras).read();
-}
+void read_obj(ByteReader& reader, MeshFile& file) { file.mesh = ObjReader(reader, file).read(); }
 
 }  // namespace wscvt

@@ -6,7 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -55,7 +56,7 @@ std::size_t whole_number(ByteReader& reader, std::string_view field, const std::
 
 }  // namespace
 
-IndexedMesh read_off(ByteReader& reader) {
+void read_off(ByteReader& reader, MeshFile& file) {
   std::optional<std::string_view> line = next_line(reader);
   TextFields header(line.value_or(""));
   check_keyword(reader, header.next());
@@ -82,7 +83,7 @@ IndexedMesh read_off(ByteReader& reader) {
                 " bytes are left for them. It was cut off" + export_again);
   }
 
-  IndexedMesh mesh;
+  IndexedMesh& mesh = file.mesh;
   mesh.points.reserve(vertices);
   for (std::size_t i = 0; i < vertices; ++i) {
     if (!(line = next_line(reader))) fail_cut(reader, "vertex", i, vertices);
@@ -125,7 +126,6 @@ IndexedMesh read_off(ByteReader& reader) {
   if (faces > 0 && mesh.triangles.empty()) {
     reader.fail("has faces, but none of them has three corners" + std::string(export_again));
   }
-  return mesh;
 }
 
 }  // namespace wscvt

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -23,23 +24,16 @@ struct Field {
 };
 
 double number_at(const Field& field, const char* bytes) {
-  constexpr auto little = boost::endian::order::little;
-  switch (field.size) {
-    case 1:
-      return field.type == 'U' ? load<std::uint8_t, little>(bytes)
-                               : load<std::int8_t, little>(bytes);
-    case 2:
-      return field.type == 'U' ? load<std::uint16_t, little>(bytes)
-                               : load<std::int16_t, little>(bytes);
-    case 4:
-      if (field.type == 'F') return load<float, little>(bytes);
-      return field.type == 'U' ? load<std::uint32_t, little>(bytes)
-                               : load<std::int32_t, little>(bytes);
-    default:
-      if (field.type == 'F') return load<double, little>(bytes);
-      return field.type == 'U' ? static_cast<double>(load<std::uint64_t, little>(bytes))
-                               : static_cast<double>(load<std::int64_t, little>(bytes));
+  Stored type = field.size == 4 ? Stored::Float32 : Stored::Float64;
+  if (field.type != 'F') {
+    type = field.size == 1   ? Stored::Int8
+           : field.size == 2 ? Stored::Int16
+           : field.size == 4 ? Stored::Int32
+                             : Stored::Int64;
   }
+  // The unsigned types follow the signed ones.
+  if (field.type == 'U') type = static_cast<Stored>(static_cast<int>(type) + 1);
+  return load_as<double>(type, boost::endian::order::little, bytes);
 }
 
 /// Unpacks Marc Lehmann's LZF, as PCL uses it. A byte b below 32 means that b + 1 bytes follow.
@@ -269,6 +263,6 @@ class PcdReader {
 
 }  // namespace
 
-IndexedMesh read_pcd(ByteReader& reader) { return PcdReader(reader).read(); }
+void read_pcd(ByteReader& reader, MeshFile& file) { file.mesh = PcdReader(reader).read(); }
 
 }  // namespace wscvt

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/picture_file.h"
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -9,6 +7,7 @@
 #include <system_error>
 
 #include "wscvt/base/error.h"
+#include "wscvt/mesh_files/readers.h"
 
 #ifdef WSCVT_HAS_STB_IMAGE
 #define STB_IMAGE_STATIC

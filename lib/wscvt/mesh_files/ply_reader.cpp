@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "wscvt/mesh_files/polygon_fan.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -64,54 +65,10 @@ std::optional<ScalarType> scalar_type(const std::string& name) {
   return found->second;
 }
 
-std::size_t size_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::Int8:
-    case ScalarType::Uint8:
-      return 1;
-    case ScalarType::Int16:
-    case ScalarType::Uint16:
-      return 2;
-    case ScalarType::Float64:
-      return 8;
-    case ScalarType::Int32:
-    case ScalarType::Uint32:
-    case ScalarType::Float32:
-      break;
-  }
-  return 4;
-}
-
-/// Calls use(read); read(bytes) returns a number of the type. Loops over a million numbers so
-/// choose the type only once.
-template <order Order, class Use>
-void with_type(ScalarType type, const Use& use) {
-  switch (type) {
-    case ScalarType::Int8:
-      return use(load<std::int8_t, Order>);
-    case ScalarType::Uint8:
-      return use(load<std::uint8_t, Order>);
-    case ScalarType::Int16:
-      return use(load<std::int16_t, Order>);
-    case ScalarType::Uint16:
-      return use(load<std::uint16_t, Order>);
-    case ScalarType::Int32:
-      return use(load<std::int32_t, Order>);
-    case ScalarType::Uint32:
-      return use(load<std::uint32_t, Order>);
-    case ScalarType::Float32:
-      return use(load<float, Order>);
-    case ScalarType::Float64:
-      return use(load<double, Order>);
-  }
-}
-
-/// Every number type of a PLY file fits a double.
-template <order Order>
-double load_as_double(ScalarType type, const char* bytes) {
-  double value = 0.0;
-  with_type<Order>(type, [&](auto read) { value = static_cast<double>(read(bytes)); });
-  return value;
+Stored stored(ScalarType type) {
+  constexpr Stored types[] = {Stored::Int8,  Stored::Uint8,  Stored::Int16,   Stored::Uint16,
+                              Stored::Int32, Stored::Uint32, Stored::Float32, Stored::Float64};
+  return types[static_cast<std::size_t>(type)];
 }
 
 Header read_header(ByteReader& reader) {
@@ -297,7 +254,8 @@ class Body {
   void check_size(const Element& element) const {
     std::uint64_t least = is_text() ? 1 : 0;  // a record of text is a line
     for (const Property& property : element.properties) {
-      least += is_text() ? 1 : size_of(property.is_list ? property.count_type : property.type);
+      least +=
+          is_text() ? 1 : size_of(stored(property.is_list ? property.count_type : property.type));
     }
     if (element.properties.empty()) return;
     // The last line needs no line break.
@@ -322,60 +280,11 @@ class Body {
     }
     mesh_.points.reserve(static_cast<std::size_t>(element.count));
     attributes_.of_vertices = begin_attributes(element);
-    switch (header_.encoding) {
-      case Encoding::Text:
-        for (std::uint64_t i = 0; i < element.count; ++i) {
-          read_text_record(element, i, element.properties.size());
-          mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]],
-                                    scalars_[columns[2]]);
-          keep_attributes(element, 1, attributes_.of_vertices);
-        }
-        return;
-      case Encoding::LittleEndian:
-        return read_binary_vertices<order::little>(element, columns);
-      case Encoding::BigEndian:
-        return read_binary_vertices<order::big>(element, columns);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      read_record(element, i, element.properties.size());
+      mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]], scalars_[columns[2]]);
+      keep_attributes(element, 1, attributes_.of_vertices);
     }
-  }
-
-  template <order Order>
-  void read_binary_vertices(const Element& element, const std::array<std::size_t, 3>& columns) {
-    const auto& properties = element.properties;
-    const bool same_type = properties[columns[0]].type == properties[columns[1]].type &&
-                           properties[columns[0]].type == properties[columns[2]].type;
-    const bool has_list = std::any_of(properties.begin(), properties.end(),
-                                      [](const Property& property) { return property.is_list; });
-    if (!same_type || has_list) {
-      for (std::uint64_t i = 0; i < element.count; ++i) {
-        read_binary_record<Order>(element, i, properties.size());
-        mesh_.points.emplace_back(scalars_[columns[0]], scalars_[columns[1]], scalars_[columns[2]]);
-        keep_attributes(element, 1, attributes_.of_vertices);
-      }
-      return;
-    }
-    // Nearly all files have records of one size; read them in blocks.
-    std::vector<std::size_t> offsets(1, 0);
-    for (const Property& property : properties) {
-      offsets.push_back(offsets.back() + size_of(property.type));
-    }
-    const std::size_t x = offsets[columns[0]];
-    const std::size_t y = offsets[columns[1]];
-    const std::size_t z = offsets[columns[2]];
-    with_type<Order>(properties[columns[0]].type, [&](auto number) {
-      for (std::uint64_t i = 0; i < element.count; ++i) {
-        const char* const bytes = reader_.next(offsets.back());
-        if (bytes == nullptr) fail_cut(element, i);
-        mesh_.points.emplace_back(static_cast<double>(number(bytes + x)),
-                                  static_cast<double>(number(bytes + y)),
-                                  static_cast<double>(number(bytes + z)));
-        auto attribute = attributes_.of_vertices.begin();
-        for (std::size_t k = 0; k < properties.size(); ++k) {
-          if (!properties[k].is_kept) continue;
-          (attribute++)
-              ->values.push_back(load_as_double<Order>(properties[k].type, bytes + offsets[k]));
-        }
-      }
-    });
   }
 
   /// Stores the numbers of the last record for `count` elements of the mesh.
@@ -462,60 +371,10 @@ class Body {
         });
     // The number of triangles of a strip is unknown before it is read.
     if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
-    switch (header_.encoding) {
-      case Encoding::Text:
-        for (std::uint64_t f = 0; f < element.count; ++f) {
-          read_text_record(element, f, list);
-          add_polygon(element, f, strips);
-        }
-        return;
-      case Encoding::LittleEndian:
-        return read_binary_polygons<order::little>(element, list, strips);
-      case Encoding::BigEndian:
-        return read_binary_polygons<order::big>(element, list, strips);
+    for (std::uint64_t f = 0; f < element.count; ++f) {
+      read_record(element, f, list);
+      add_polygon(element, f, strips);
     }
-  }
-
-  template <order Order>
-  void read_binary_polygons(const Element& element, std::size_t list, bool strips) {
-    const auto& properties = element.properties;
-    const bool other_lists = std::count_if(properties.begin(), properties.end(),
-                                           [](const auto& p) { return p.is_list; }) > 1;
-    const Property& indices = properties[list];
-    const bool whole = indices.type != ScalarType::Float32 && indices.type != ScalarType::Float64;
-    const bool plain = !other_lists && whole && indices.count_type == ScalarType::Uint8 &&
-                       header_.pictures.empty();
-    if (!plain || strips || !attributes_.of_faces.empty()) {
-      for (std::uint64_t f = 0; f < element.count; ++f) {
-        read_binary_record<Order>(element, f, list);
-        add_polygon(element, f, strips);
-      }
-      return;
-    }
-    // Nearly all files have one list with a one-byte count among numbers.
-    std::size_t before = 0;
-    std::size_t after = 0;
-    for (std::size_t k = 0; k < properties.size(); ++k) {
-      if (k != list) (k < list ? before : after) += size_of(properties[k].type);
-    }
-    const std::size_t index_size = size_of(indices.type);
-    std::array<std::uint32_t, 255> corners{};
-    with_type<Order>(indices.type, [&](auto number) {
-      for (std::uint64_t f = 0; f < element.count; ++f) {
-        const char* bytes = reader_.next(before + 1);
-        if (bytes == nullptr) fail_cut(element, f);
-        const std::size_t count = static_cast<unsigned char>(bytes[before]);
-        bytes = reader_.next(index_size * count + after);
-        if (bytes == nullptr) fail_cut(element, f);
-        for (std::size_t i = 0; i < count; ++i) {
-          const auto index = number(bytes + index_size * i);
-          // A negative index becomes larger than any count.
-          corners[i] = static_cast<std::uint32_t>(static_cast<std::int64_t>(index));
-          if (corners[i] >= vertices_) fail_index(element, f, static_cast<double>(index));
-        }
-        add_fan(corners.data(), count, mesh_.triangles);
-      }
-    });
   }
 
   /// Adds the polygon or strip of the last record.
@@ -562,40 +421,46 @@ class Body {
                                       [](const Property& property) { return property.is_list; });
     if (!is_text() && !has_list) {
       std::uint64_t size = 0;
-      for (const Property& property : element.properties) size += size_of(property.type);
+      for (const Property& property : element.properties) size += size_of(stored(property.type));
       // check_size has verified that the product is at most the file's size.
       if (!reader_.skip(size * element.count)) fail_cut(element, 0);
       return;
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      switch (header_.encoding) {
-        case Encoding::Text:
-          if (!reader_.filled_line()) fail_cut(element, i);
-          break;
-        case Encoding::LittleEndian:
-          read_binary_record<order::little>(element, i, element.properties.size());
-          break;
-        case Encoding::BigEndian:
-          read_binary_record<order::big>(element, i, element.properties.size());
-          break;
+      if (!is_text()) {
+        read_binary_record(element, i, element.properties.size());
+      } else if (!reader_.filled_line()) {
+        fail_cut(element, i);
       }
     }
   }
 
   /// Reads a record: scalars_[k] becomes the number of property k, items_ the wanted list.
-  template <order Order>
+  void read_record(const Element& element, std::uint64_t record, std::size_t wanted_list) {
+    if (is_text()) {
+      read_text_record(element, record, wanted_list);
+    } else {
+      read_binary_record(element, record, wanted_list);
+    }
+  }
+
+  double number_at(ScalarType type, const char* bytes) const {
+    const order of_bytes = header_.encoding == Encoding::LittleEndian ? order::little : order::big;
+    return load_as<double>(stored(type), of_bytes, bytes);
+  }
+
   void read_binary_record(const Element& element, std::uint64_t record, std::size_t wanted_list) {
     scalars_.resize(element.properties.size());
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const Property& property = element.properties[k];
       const ScalarType type = property.is_list ? property.count_type : property.type;
-      const char* const bytes = reader_.next(size_of(type));
+      const char* const bytes = reader_.next(size_of(stored(type)));
       if (bytes == nullptr) fail_cut(element, record);
-      scalars_[k] = load_as_double<Order>(type, bytes);
+      scalars_[k] = number_at(type, bytes);
       if (!property.is_list) continue;
       const std::uint64_t count = list_count(element, record, scalars_[k]);
-      const std::size_t item_size = size_of(property.type);
-      if (count > reader_.remaining() / item_size) fail_list(element, record, count);
+      const std::size_t item_size = size_of(stored(property.type));
+      if (count > reader_.remaining() / item_size) fail_cut(element, record);
       if (k != wanted_list && k != places_list_) {
         if (!reader_.skip(item_size * count)) fail_cut(element, record);
         continue;
@@ -605,7 +470,7 @@ class Body {
       std::vector<double>& read = k == wanted_list ? items_ : places_;
       read.resize(static_cast<std::size_t>(count));
       for (std::size_t i = 0; i < read.size(); ++i) {
-        read[i] = load_as_double<Order>(property.type, items + item_size * i);
+        read[i] = number_at(property.type, items + item_size * i);
       }
     }
   }
@@ -629,7 +494,11 @@ class Body {
       if (!element.properties[k].is_list) continue;
       const std::uint64_t count = list_count(element, record, scalars_[k]);
       // An item needs a digit and a blank.
-      if (count > (fields.rest().size() + 1) / 2) fail_list(element, record, count);
+      if (count > (fields.rest().size() + 1) / 2) {
+        fail_record(element, record,
+                    "has a list of " + std::to_string(count) +
+                        " items, more than there is left to read" + export_again);
+      }
       std::vector<double>* const read = k == wanted_list    ? &items_
                                         : k == places_list_ ? &places_
                                                             : nullptr;
@@ -656,13 +525,6 @@ class Body {
     return static_cast<std::uint64_t>(count);
   }
 
-  [[noreturn]] void fail_list(const Element& element, std::uint64_t record,
-                              std::uint64_t count) const {
-    fail_record(element, record,
-                "has a list of " + std::to_string(count) +
-                    " items, more than there is left to read" + export_again);
-  }
-
   ByteReader& reader_;
   const Header& header_;
   MeshAttributes& attributes_;
@@ -677,17 +539,16 @@ class Body {
 
 }  // namespace
 
-IndexedMesh read_ply(ByteReader& reader) {
-  Header header = read_header(reader);
-  header.pictures.clear();
-  MeshAttributes none;
-  return Body(reader, header, none).read();
-}
-
-IndexedMesh read_ply_attributes(ByteReader& reader, MeshAttributes& attributes) {
+void read_ply(ByteReader& reader, MeshFile& file) {
   Header header = read_header(reader);
   mark_attributes(header);
-  return Body(reader, header, attributes).read();
+  file.mesh = Body(reader, header, file.attributes).read();
+  for (const MeshAttribute& labels : file.attributes.of_faces) {
+    constexpr std::string_view colours[] = {"red", "green", "blue", "alpha"};
+    if (std::find(std::begin(colours), std::end(colours), labels.name) == std::end(colours)) {
+      append_labels(labels.values, file.mesh.triangles.size(), file.named_faces);
+    }
+  }
 }
 
 }  // namespace wscvt

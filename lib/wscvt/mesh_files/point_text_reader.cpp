@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -52,10 +53,10 @@ std::optional<std::size_t> axis_of(std::string_view name) {
 
 }  // namespace
 
-IndexedMesh read_point_text(ByteReader& reader) {
+void read_point_text(ByteReader& reader, MeshFile& file) {
   std::array<std::size_t, 3> columns{0, 1, 2};
   std::vector<std::string_view> fields;
-  IndexedMesh mesh;
+  IndexedMesh& mesh = file.mesh;
   bool is_first = true;
   while (const std::optional<std::string_view> line = reader.filled_line()) {
     if (TextFields(*line).next().front() == '#') continue;
@@ -94,7 +95,6 @@ IndexedMesh read_point_text(ByteReader& reader) {
     mesh.points.push_back(point);
   }
   if (mesh.points.empty()) reader.fail("holds no points" + std::string(export_again));
-  return mesh;
 }
 
 }  // namespace wscvt

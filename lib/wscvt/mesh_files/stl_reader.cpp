@@ -5,7 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "wscvt/mesh_files/face_names.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -171,17 +172,10 @@ bool is_binary(ByteReader& reader) {
 
 }  // namespace
 
-IndexedMesh read_stl(ByteReader& reader) {
-  std::vector<NamedFaces> names;
-  return read_stl_solids(reader, names);
-}
-
-IndexedMesh read_stl_solids(ByteReader& reader, std::vector<NamedFaces>& names) {
-  if (is_binary(reader)) return read_binary(reader);
+void read_stl(ByteReader& reader, MeshFile& file) {
   FaceNames solids;
-  IndexedMesh mesh = TextReader(reader, solids).read();
-  solids.append_to(names);
-  return mesh;
+  file.mesh = is_binary(reader) ? read_binary(reader) : TextReader(reader, solids).read();
+  solids.append_to(file.named_faces);
 }
 
 }  // namespace wscvt

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/mesh_files/texture_files.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,7 +11,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/mesh_files/byte_reader.h"
-#include "wscvt/mesh_files/picture_file.h"
+#include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/mesh_files/face_names.h"
+#include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
-#include "wscvt/mesh_files/vtk_polygons.h"
 
 namespace wscvt {
 
@@ -354,7 +354,7 @@ class VtpReader {
     const bool is_long = value_of(file_, "header_type", "UInt32") == "UInt64";
     const std::optional<std::string> text = bytes.next(is_long ? 8 : 4);
     if (!text) fail_cut();
-    return is_long ? at<std::uint64_t>(text->data()) : at<std::uint32_t>(text->data());
+    return load_as<std::uint64_t>(is_long ? Stored::Uint64 : Stored::Uint32, order(), text->data());
   }
 
   /// Returns the bytes after the lengths that VTK puts before an array.
@@ -398,40 +398,32 @@ class VtpReader {
     return all;
   }
 
-  /// Reads a value in the byte order of the file.
-  template <class Value>
-  Value at(const char* bytes) const {
-    using boost::endian::order;
+  boost::endian::order order() const {
     return value_of(file_, "byte_order", "LittleEndian") == "BigEndian"
-               ? load<Value, order::big>(bytes)
-               : load<Value, order::little>(bytes);
-  }
-
-  template <class Number, class Stored>
-  std::vector<Number> converted(const std::string& bytes) const {
-    std::vector<Number> result;
-    result.reserve(bytes.size() / sizeof(Stored));
-    for (std::size_t k = 0; k + sizeof(Stored) <= bytes.size(); k += sizeof(Stored)) {
-      result.push_back(static_cast<Number>(at<Stored>(bytes.data() + k)));
-    }
-    return result;
+               ? boost::endian::order::big
+               : boost::endian::order::little;
   }
 
   template <class Number>
   std::vector<Number> typed_numbers(const std::string& type, const std::string& bytes) const {
-    if constexpr (std::is_same_v<Number, double>) {
-      if (type == "Float32") return converted<Number, float>(bytes);
-      if (type == "Float64") return converted<Number, double>(bytes);
+    static const std::map<std::string, Stored> types = {
+        {"Int8", Stored::Int8},      {"UInt8", Stored::Uint8},   {"Int16", Stored::Int16},
+        {"UInt16", Stored::Uint16},  {"Int32", Stored::Int32},   {"UInt32", Stored::Uint32},
+        {"Int64", Stored::Int64},    {"UInt64", Stored::Uint64}, {"Float32", Stored::Float32},
+        {"Float64", Stored::Float64}};
+    const auto found = types.find(type);
+    const bool is_whole = type.find("Int") != std::string::npos;
+    if (found == types.end() || (!is_whole && !std::is_same_v<Number, double>)) {
+      reader_.fail("has an array of " + in_quotes(type) + " instead of other numbers" +
+                   export_again);
     }
-    if (type == "Int8") return converted<Number, std::int8_t>(bytes);
-    if (type == "UInt8") return converted<Number, std::uint8_t>(bytes);
-    if (type == "Int16") return converted<Number, std::int16_t>(bytes);
-    if (type == "UInt16") return converted<Number, std::uint16_t>(bytes);
-    if (type == "Int32") return converted<Number, std::int32_t>(bytes);
-    if (type == "UInt32") return converted<Number, std::uint32_t>(bytes);
-    if (type == "Int64") return converted<Number, std::int64_t>(bytes);
-    if (type == "UInt64") return converted<Number, std::uint64_t>(bytes);
-    reader_.fail("has an array of " + in_quotes(type) + " instead of other numbers" + export_again);
+    const std::size_t size = size_of(found->second);
+    std::vector<Number> result;
+    result.reserve(bytes.size() / size);
+    for (std::size_t k = 0; k + size <= bytes.size(); k += size) {
+      result.push_back(load_as<Number>(found->second, order(), bytes.data() + k));
+    }
+    return result;
   }
 
   ByteReader& reader_;
@@ -446,13 +438,8 @@ class VtpReader {
 
 }  // namespace
 
-IndexedMesh read_vtp(ByteReader& reader) {
-  std::vector<NamedFaces> names;
-  return read_vtp_labels(reader, names);
-}
-
-IndexedMesh read_vtp_labels(ByteReader& reader, std::vector<NamedFaces>& names) {
-  return VtpReader(reader).read(names);
+void read_vtp(ByteReader& reader, MeshFile& file) {
+  file.mesh = VtpReader(reader).read(file.named_faces);
 }
 
 }  // namespace wscvt

@@ -12,7 +12,6 @@
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
-#include "wscvt/tessellation/seeding.h"
 #include "wscvt/tessellation/weights.h"
 
 namespace wscvt {

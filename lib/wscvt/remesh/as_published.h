@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/remesh/normalized_scan.h"
 #include "wscvt/remesh/remesh_method.h"
 #include "wscvt/remesh/remesh_options.h"
+#include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

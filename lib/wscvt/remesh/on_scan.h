@@ -5,9 +5,9 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/nodes/scan_nodes.h"
-#include "wscvt/remesh/normalized_scan.h"
 #include "wscvt/remesh/remesh_method.h"
 #include "wscvt/remesh/remesh_options.h"
+#include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/sphere_surface.h"
 

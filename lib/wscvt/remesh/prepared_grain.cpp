@@ -15,7 +15,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
-#include "wscvt/remesh/remesh_units.h"
+#include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {

@@ -6,10 +6,10 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/remesh/normalized_scan.h"
 #include "wscvt/remesh/remesh_method.h"
 #include "wscvt/remesh/remesh_options.h"
 #include "wscvt/remesh/remesh_result.h"
+#include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/sphere_surface.h"
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh/remesh_options.h"
 
+#include <type_traits>
+#include <utility>
+
 #include "wscvt/base/error.h"
-#include "wscvt/tessellation/seeding.h"
+#include "wscvt/base/text.h"
+#include "wscvt/tessellation/weights.h"
 
 namespace wscvt {
 
@@ -37,6 +41,129 @@ void check_options(const RemeshOptions& options) {
                                              " weighted or fibonacci, or --" +
                                              std::string(error_target_option.key) + " 0.");
   }
+}
+
+namespace {
+
+/// The keys of a method's own options, with a test for a value of one of them.
+class KnownOptions {
+ public:
+  KnownOptions(std::string_view key, std::string_view value) : key_(key), value_(value) {}
+
+  template <class Number>
+  void operator()(const Number& /*value*/, const NumberOption<Number>& option) {
+    has_key = has_key || option.key == key_;
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& /*value*/) {
+    if (EnumerationTable<Enumeration>::key != key_) return;
+    has_key = true;
+    for (const auto& row : enumerators<Enumeration>()) has_value = has_value || row.key == value_;
+  }
+
+  bool has_key = false;
+  bool has_value = false;
+
+ private:
+  std::string_view key_;
+  std::string_view value_;
+};
+
+KnownOptions known_to(Method method, std::string_view key, std::string_view value) {
+  KnownOptions known(key, value);
+  if (method == Method::OnScan) {
+    const OnScanOptions options;
+    for_each_method_option(options, known);
+  } else {
+    const AsPublishedOptions options;
+    for_each_method_option(options, known);
+  }
+  return known;
+}
+
+Method other(Method method) {
+  return method == Method::OnScan ? Method::AsPublished : Method::OnScan;
+}
+
+/// Reads typed options.
+class ReadTyped {
+ public:
+  ReadTyped(TypedOptions typed, const RefuseOption& refuse)
+      : typed_(std::move(typed)), refuse_(refuse) {}
+
+  template <class Number>
+  void operator()(Number& value, const NumberOption<Number>& option) {
+    take(option.key, [&](const std::string& text) { value = from_typed(text, option); });
+  }
+  void operator()(bool& value, const FlagOption& option) {
+    take(option.key, [&](const std::string& text) {
+      if (text != "true" && text != "false") {
+        refuse("The option " + std::string(option.key) + " is \"" + text +
+               "\". Give true or false.");
+      }
+      value = text == "true";
+    });
+  }
+  template <class Enumeration>
+  void operator()(Enumeration& value) {
+    constexpr std::string_view key = EnumerationTable<Enumeration>::key;
+    take(key, [&](const std::string& text) {
+      const std::string name = lower_case(text);
+      const Sentence refusal = refusal_of_value(key, name, method_);
+      if (!refusal.empty()) refuse(refusal);
+      value = from_key<Enumeration>(name);
+      if constexpr (std::is_same_v<Enumeration, Method>) method_ = value;
+    });
+  }
+
+  /// Refuses texts that no option has read.
+  void finish() const {
+    for (const auto& [key, text] : typed_) refuse_(key, refusal_of_option(key, method_));
+  }
+
+ private:
+  template <class Read>
+  void take(std::string_view key, const Read& read) {
+    const auto found = typed_.find(key);
+    if (found == typed_.end()) return;
+    try {
+      read(found->second);
+    } catch (const Error& error) {
+      refuse_(key, error.sentence());
+    }
+    typed_.erase(found);
+  }
+
+  TypedOptions typed_;
+  const RefuseOption& refuse_;
+  Method method_ = Method::OnScan;
+};
+
+}  // namespace
+
+Sentence refusal_of_option(std::string_view key, Method method) {
+  if (known_to(method, key, "").has_key || !known_to(other(method), key, "").has_key) return "";
+  return "This option belongs to the method " + key_of(other(method)) + ", but the method is " +
+         key_of(method) + ". Leave it out, or use " + mention(other(method)) + ".";
+}
+
+Sentence refusal_of_value(std::string_view key, std::string_view value, Method method) {
+  if (key == EnumerationTable<CellWeighting>::key && value == "error-adaptive") {
+    return Sentence("Version 3 has no value \"error-adaptive\". Use ") +
+           key_of(CellWeighting::Area) + " with " +
+           mention(std::string(edge_ratio_option.key), "1.4") + ", which is closer.";
+  }
+  if (known_to(method, key, value).has_value || !known_to(other(method), key, value).has_value) {
+    return "";
+  }
+  return Sentence("\"") + std::string(value) + "\" belongs to the method " + key_of(other(method)) +
+         ", but the method is " + key_of(method) + ".";
+}
+
+void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse) {
+  ReadTyped read(typed, refuse);
+  for_each_option(options, read);
+  read.finish();
 }
 
 }  // namespace wscvt

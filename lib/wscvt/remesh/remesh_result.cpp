@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh/remesh_result.h"
 
+#include <cmath>
+
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text.h"
-#include "wscvt/remesh/error_measure.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 
 double error_percent(const RemeshResult& result, ErrorMeasure measure) {
-  return error_percent(measure, result.remesh, result.scan, result.distances);
+  switch (measure) {
+    case ErrorMeasure::Volume:
+      return std::abs(relative_error_percent(result.remesh.volume, result.scan.volume));
+    case ErrorMeasure::Area:
+      return std::abs(relative_error_percent(result.remesh.area, result.scan.area));
+    case ErrorMeasure::Sphericity:
+      return std::abs(relative_error_percent(result.remesh.sphericity, result.scan.sphericity));
+    case ErrorMeasure::Inertia:
+      return inertia_error_percent(result.remesh, result.scan);
+    case ErrorMeasure::Distance:
+      break;
+  }
+  if (!result.distances) {
+    throw Error(ErrorCode::InvalidInput,
+                "The result has no distances. Request them in the options of the remesh.");
+  }
+  return 100.0 * result.distances->root_mean_square / equivalent_radius(result.scan.volume);
 }
 
 void write_coefficients(const std::string& path, const RemeshResult& result) {

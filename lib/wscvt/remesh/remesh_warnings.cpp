@@ -5,8 +5,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/repair/closing_advice.h"
-#include "wscvt/repair/voxel_steps.h"
+#include "wscvt/repair/scan_advice.h"
 
 namespace wscvt {
 

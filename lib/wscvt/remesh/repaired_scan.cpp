@@ -5,10 +5,10 @@
 
 #include "wscvt/repair/coordinates.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/new_surface.h"
 #include "wscvt/repair/overhangs.h"
-#include "wscvt/repair/point_cloud.h"
-#include "wscvt/repair/shrink_wrap.h"
 #include "wscvt/surface/crossing_pairs.h"
+#include "wscvt/surface/harmonic_fit.h"
 
 namespace wscvt {
 
@@ -41,6 +41,46 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
   }
   if (options.points || wraps) count_given(points, faces, different, report);
   return repaired;
+}
+
+NormalizedScan normalize(IndexedMesh mesh, const Vector3& centre, double unit,
+                         const Execution& execution) {
+  constexpr std::size_t block = 1024;
+  NormalizedScan scan;
+  scan.unit = unit;
+  scan.centre = centre;
+  scan.mesh = std::move(mesh);
+  std::vector<Vector3>& points = scan.mesh.points;
+  execution.parallel_for(points.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points[i] = (points[i] - centre) / unit;
+  });
+  execution.report(0.0, "Measuring the scan");
+  scan.shape = describe_shape(scan.mesh, execution);
+  scan.quality = measure_quality(scan.mesh, execution);
+  return scan;
+}
+
+void to_input_units(double unit, const Vector3& centre, RemeshResult& result) {
+  if (auto* report = std::get_if<AsPublishedReport>(&result.method)) scale(report->fit, unit);
+  if (auto* report = std::get_if<OnScanReport>(&result.method)) {
+    report->nodes.volume_offset *= unit;
+  }
+  for (double& coefficient : result.coefficients.radius) coefficient *= unit;
+  for (std::vector<double>& coordinate : result.coefficients.map) {
+    for (double& coefficient : coordinate) coefficient *= unit;
+  }
+  result.rms_distance *= unit;
+  result.largest_distance *= unit;
+  scale(result.scan, unit, centre);
+  scale(result.remesh, unit, centre);
+  scale(result.scan_quality, unit);
+  scale(result.quality, unit);
+  if (result.distances) scale(*result.distances, unit);
+  for (Vector3& point : result.mesh.points) point = centre + unit * point;
+  for (double& radius : result.radial_distances) radius *= unit;
+  for (double& area : result.cell_areas) area *= unit * unit;
+  for (double& curvature : result.curvatures) curvature /= unit;
+  for (double& distance : result.vertex_distances) distance *= unit;
 }
 
 }  // namespace wscvt

@@ -39,4 +39,10 @@ void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kep
 /// order. Returns the number of turned faces.
 std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept);
 
+/// Returns for every point 1 if it lies inside the closed oriented mesh (its winding number is not
+/// 0). For points on the surface either result is possible. Faster than points times faces: it
+/// visits the faces once, and for each point only the faces over it.
+std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
+                             const Execution& execution);
+
 }  // namespace wscvt

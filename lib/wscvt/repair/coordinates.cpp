@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/mesh_files/single_precision.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -118,6 +121,111 @@ std::string precision_warning(const IndexedMesh& mesh) {
   return "The scan's coordinates have steps of " + format_number(1.0 / power_of_ten) +
          " or more, but its mean edge is " + format_number(edge, 3) + lost(collapsed) +
          ". Save it with more digits.";
+}
+
+namespace {
+
+/// Large enough that the start of a block costs little.
+constexpr std::size_t usable_block = 16384;
+
+/// Returns the first index in [0, count) for which `wrong` is true, or count. The first, so that
+/// the message does not depend on the number of threads.
+template <class Predicate>
+std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
+  std::vector<std::size_t> first((count + usable_block - 1) / usable_block, count);
+  execution.parallel_for(count, usable_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (wrong(i)) {
+        first[begin / usable_block] = i;
+        break;
+      }
+    }
+  });
+  return first.empty() ? count : *std::min_element(first.begin(), first.end());
+}
+
+void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
+  const std::size_t vertices = mesh.points.size();
+  const std::size_t faces = mesh.triangles.size();
+  if (vertices == 0) refuse("The mesh is empty: it has no vertices. Load the scan of a grain.");
+  if (faces == 0) {
+    refuse("The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+           " but no faces, so it encloses no volume. Remesh it as a point cloud first, to make a "
+           "closed surface of the points.");
+  }
+  constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
+  if (faces > limit || vertices > limit) {
+    refuse("The mesh has " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+           " faces, more than the " + std::to_string(limit) +
+           " that can be numbered. Reduce the scan first.");
+  }
+  const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
+    const Triangle& t = mesh.triangles[f];
+    return std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
+      return v < 0 || static_cast<std::size_t>(v) >= vertices;
+    });
+  });
+  if (bad_face < faces) {
+    const Triangle& t = mesh.triangles[bad_face];
+    refuse("Face " + std::to_string(bad_face) + " names the vertices " + std::to_string(t[0]) +
+           ", " + std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
+           std::to_string(vertices) + ". The file or the program that made it is wrong.");
+  }
+}
+
+/// Drops the faces with a corner that is not finite.
+std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
+  const std::size_t vertices = mesh.points.size();
+  const std::size_t first =
+      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
+  if (first == vertices) return 0;
+  const auto lost = [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::int32_t v) { return !mesh.points[index(v)].allFinite(); });
+  };
+  const std::size_t faces = mesh.triangles.size();
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lost),
+                       mesh.triangles.end());
+  if (mesh.triangles.empty()) {
+    const Vector3& p = mesh.points[first];
+    const auto coordinate = [](double value) {
+      return std::isnan(value) ? "nan" : format_number(value);
+    };
+    refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
+           std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
+           coordinate(p.z()) + "). The file or the program that made it is wrong.");
+  }
+  return faces - mesh.triangles.size();
+}
+
+}  // namespace
+
+std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
+  refuse_unusable(mesh, execution);
+  return drop_lost_faces(mesh, execution);
+}
+
+std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      throw Error(ErrorCode::InvalidInput,
+                  "Point " + std::to_string(i) +
+                      " has a coordinate that is not a finite number. Remove it from the scan.");
+    }
+  }
+  const auto less = [](const Vector3& a, const Vector3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::sort(points.begin(), points.end(), less);
+  execution.report(0.0, "Sorting the points");  // sorting a million points takes tenths of a second
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 4) {
+    throw Error(ErrorCode::InvalidInput,
+                "The scan has " + std::to_string(points.size()) +
+                    " different points and no faces. A body needs at least 4.");
+  }
+  check_scan_size(points);
+  return points;
 }
 
 }  // namespace wscvt

@@ -15,8 +15,8 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/scan_advice.h"
 
 namespace wscvt {
 

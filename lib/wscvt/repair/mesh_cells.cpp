@@ -14,7 +14,6 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/repair/edge_rings.h"
 
 namespace wscvt {
 

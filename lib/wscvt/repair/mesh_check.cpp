@@ -16,15 +16,11 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/repair/closing_advice.h"
 #include "wscvt/repair/components.h"
 #include "wscvt/repair/coordinates.h"
-#include "wscvt/repair/edge_rings.h"
-#include "wscvt/repair/enclosure.h"
 #include "wscvt/repair/mesh_cells.h"
 #include "wscvt/repair/repair_steps.h"
-#include "wscvt/repair/usable_scan.h"
-#include "wscvt/repair/voxel_steps.h"
+#include "wscvt/repair/scan_advice.h"
 #include "wscvt/repair/weld.h"
 
 namespace wscvt {

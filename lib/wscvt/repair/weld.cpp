@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
-#include "wscvt/repair/edge_rings.h"
 
 namespace wscvt {
 

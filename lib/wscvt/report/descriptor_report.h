@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/report/report.h"
 
@@ -25,5 +26,15 @@ std::string grain_line(const MeasuredGrain& grain);
 /// Returns an aligned table of the distances, with % of the reference's equivalent radius. Empty
 /// without a reference.
 std::vector<std::string> distance_lines(const GrainMeasures& measures);
+
+/// A body's mass properties and the heading of its column.
+struct NamedMass {
+  std::string name;
+  MassProperties mass;
+};
+
+/// Returns rows of cells: mass properties at unit density, one column per body. The first row is
+/// the head. The volume is in the table of descriptors.
+std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bodies);
 
 }  // namespace wscvt

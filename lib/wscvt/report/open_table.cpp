@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/base/system_files.h"
 
 namespace wscvt {
@@ -60,6 +61,59 @@ void OpenTable::append(const std::string& bytes) const {
 void OpenTable::cut(std::size_t size) const {
   if (file_->cut(size)) return;
   fail_table(path_, "ends within a row that cannot be removed. Check the owner of the file.");
+}
+
+namespace {
+
+constexpr const char* line_end = "\r\n";
+constexpr std::size_t line_end_size = 2;
+
+/// Returns the index of the row's first byte.
+std::size_t row_of(const std::string& header_and_row) {
+  return header_and_row.find(line_end) + line_end_size;
+}
+
+/// Throws unless the table is empty or rows like this one may follow it.
+void require_header(const std::string& path, const OpenTable& table,
+                    const std::string& header_and_row) {
+  const std::size_t size = table.size();
+  if (size == 0) return;
+  const std::string header = header_and_row.substr(0, row_of(header_and_row));
+  if (table.read(0, header.size()) != header) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "\"" + path + "\" is not a table with this report's columns. Give the name of a new file.");
+  }
+  if (table.read(size - line_end_size, line_end_size) != line_end) {
+    throw Error(
+        ErrorCode::InvalidInput,
+        "\"" + path +
+            "\" ends within a row. Give the name of a new file, or end its last line with CR LF.");
+  }
+}
+
+/// Pipes and devices have no header that could be read.
+bool is_stream(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
+}  // namespace
+
+void append_to_table(const std::string& path, const std::string& header_and_row) {
+  if (is_stream(path)) return write_file(path, header_and_row);
+  check_writable(path);  // its messages explain folders and links
+  const OpenTable table(path, TableUse::Append);
+  require_header(path, table, header_and_row);
+  table.append(table.size() == 0 ? header_and_row : header_and_row.substr(row_of(header_and_row)));
+}
+
+void check_table(const std::string& path, const std::string& header_and_row) {
+  check_writable(path);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  require_header(path, OpenTable(path, TableUse::Read), header_and_row);
 }
 
 }  // namespace wscvt

@@ -5,7 +5,7 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
-#include "wscvt/report/csv_table.h"
+#include "wscvt/report/open_table.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {

@@ -6,9 +6,9 @@
 
 #include "wscvt/base/option.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
-#include "wscvt/report/mass_table.h"
 #include "wscvt/report/page_figures.h"
 #include "wscvt/report/report.h"
 

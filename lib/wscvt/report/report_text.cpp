@@ -5,7 +5,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
-#include "wscvt/report/mass_table.h"
+#include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {

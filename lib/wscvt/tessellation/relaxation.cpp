@@ -9,7 +9,6 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/tessellation/power_cells.h"
-#include "wscvt/tessellation/step_control.h"
 
 namespace wscvt {
 

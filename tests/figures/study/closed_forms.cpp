@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/study/closed_forms.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "figures/study/paper_study.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
@@ -86,9 +85,10 @@ double ellipsoid_area(double c, double b, double a) {
                                  std::ellint_1(modulus, angle) * cosine * cosine);
 }
 
-/// Mean radius of curvature by turn (roundness.h) over the ellipsoid's points that are corners,
-/// over the radius of its inscribed sphere; by its own parameters and the textbook curvatures: with
-/// h = 1 / |x / a^2|, K = h^4 / (a b c)^2 and H = h^3 (a^2 + b^2 + c^2 - |x|^2) / (2 (a b c)^2).
+/// Mean radius of curvature by turn (wadell_roundness) over the ellipsoid's points that are
+/// corners, over the radius of its inscribed sphere; by its own parameters and the textbook
+/// curvatures: with h = 1 / |x / a^2|, K = h^4 / (a b c)^2 and H = h^3 (a^2 + b^2 + c^2 - |x|^2) /
+/// (2 (a b c)^2).
 double ellipsoid_roundness(const Vector3& axes) {
   constexpr int side = 1000;
   const double inscribed = axes.minCoeff();

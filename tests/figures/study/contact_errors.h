@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "toolbox/exchange/distance_grid.h"
 #include "toolbox/exchange/node_table.h"
 #include "wscvt/base/execution.h"
+#include "wscvt/remesh.h"
 
 namespace wscvt::study {
 
@@ -87,5 +89,16 @@ class ContactGrain {
 
 /// The scan in its principal frame with an equivalent radius of 1, as ContactGrain wants it.
 IndexedMesh unit_scan(const IndexedMesh& scan, const Execution& execution);
+
+/// A way to choose nodes, as the contact study compares them.
+struct ContactSampling {
+  std::string name;
+  RemeshOptions options;
+};
+
+/// As published, with nodes on the scan: WSCVT-D, WSCVT-C, constant, Fibonacci. By the method on
+/// the scan: nodes on it, fitted, fitted closely, and contact fits of an edge ratio of 1.4, with
+/// their radius, for nodes against another grain's surface, nodes of both, and flat walls.
+std::vector<ContactSampling> contact_samplings();
 
 }  // namespace wscvt::study

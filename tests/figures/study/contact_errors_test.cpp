@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 
-#include "figures/study/contact_samplings.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 

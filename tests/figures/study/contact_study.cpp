@@ -15,8 +15,7 @@
 #include <vector>
 
 #include "figures/study/contact_errors.h"
-#include "figures/study/contact_samplings.h"
-#include "figures/study/table.h"
+#include "figures/study/paper_study.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace {

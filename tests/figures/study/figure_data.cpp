@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/study/figure_data.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
+#include "figures/study/paper_study.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/surface/curvature.h"

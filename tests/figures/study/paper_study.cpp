@@ -2,6 +2,8 @@
 
 // The paper's study, repeated on the samples: tables and the data its figures are drawn from.
 
+#include "figures/study/paper_study.h"
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -11,11 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "figures/study/closed_forms.h"
-#include "figures/study/figure_data.h"
-#include "figures/study/reference_particles.h"
-#include "figures/study/sampling_errors.h"
-#include "figures/study/table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/mesh_files/mesh_io.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/study/reference_particles.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "figures/study/paper_study.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "figures/study/sampling_errors.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,10 +6,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "figures/study/paper_study.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/descriptors.h"
-#include "wscvt/measures/printed_sdq.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/sphere_surface.h"
 

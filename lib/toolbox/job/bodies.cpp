@@ -1,0 +1,789 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unordered_set>
+#include <utility>
+
+#include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
+#include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/components.h"
+#include "wscvt/repair/coordinates.h"
+#include "wscvt/repair/mesh_cells.h"
+#include "wscvt/repair/scan_advice.h"
+#include "wscvt/repair/scan_options.h"
+#include "wscvt/repair/weld.h"
+
+namespace wscvt {
+
+namespace {
+
+using FaceList = std::vector<std::int32_t>;
+
+/// Copies faces with the vertices that they use.
+class Extractor {
+ public:
+  explicit Extractor(const IndexedMesh& mesh)
+      : mesh_(mesh), number_(mesh.points.size(), -1), user_(mesh.points.size(), -1) {}
+
+  /// `turned`: for each of the faces whether it is turned round; empty: none.
+  IndexedMesh extract(const FaceList& faces, const std::vector<char>& turned = {}) {
+    IndexedMesh part;
+    ++uses_;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      Triangle t = mesh_.triangles[index(faces[k])];
+      if (!turned.empty() && turned[k] != 0) std::swap(t[1], t[2]);
+      for (std::int32_t& v : t) {
+        if (user_[index(v)] != uses_) {
+          user_[index(v)] = uses_;
+          number_[index(v)] = static_cast<std::int32_t>(part.points.size());
+          part.points.push_back(mesh_.points[index(v)]);
+        }
+        v = number_[index(v)];
+      }
+      part.triangles.push_back(t);
+    }
+    return part;
+  }
+
+ private:
+  const IndexedMesh& mesh_;
+  std::vector<std::int32_t> number_;
+  std::vector<std::int32_t> user_;
+  std::int32_t uses_ = 0;
+};
+
+/// Faces that are welded with each other and with no others.
+struct Island {
+  IndexedMesh mesh;
+  FaceList source;  ///< their indices in the file
+};
+
+/// Replaces vertices and drops the faces with two equal corners.
+void merge(const std::vector<std::int32_t>& first, Island& island) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < island.mesh.triangles.size(); ++f) {
+    Triangle t = island.mesh.triangles[f];
+    for (std::int32_t& v : t) {
+      if (!first.empty()) v = first[index(v)];
+    }
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    island.mesh.triangles[kept] = t;
+    island.source[kept++] = island.source[f];
+  }
+  island.mesh.triangles.resize(kept);
+  island.source.resize(kept);
+}
+
+/// Whether every edge has an even number of different faces.
+bool is_closed(const Island& island, const Execution& execution) {
+  if (island.mesh.triangles.empty()) return false;
+  const std::vector<std::int32_t> rings = edge_rings(island.mesh, execution);
+  std::vector<Triangle> others;
+  for (std::size_t h = 0; h < rings.size(); ++h) {
+    others.clear();
+    bool is_first = true;
+    std::size_t g = h;
+    do {
+      is_first = is_first && g >= h;
+      Triangle key = island.mesh.triangles[g / 3];
+      std::sort(key.begin(), key.end());
+      if (std::find(others.begin(), others.end(), key) == others.end()) others.push_back(key);
+      g = index(rings[g]);
+    } while (is_first && g != h);
+    if (is_first && others.size() % 2 != 0) return false;
+  }
+  return true;
+}
+
+/// Step 1 of split_bodies.
+class IslandFinder {
+ public:
+  IslandFinder(const IndexedMesh& mesh, const std::vector<NamedFaces>& names,
+               const Execution& execution)
+      : mesh_(mesh), names_(names), execution_(execution), extractor_(mesh) {
+    const Box box = box_of_faces(mesh, execution);
+    check_scan_size(box.high - box.low);
+    diagonal_ = (box.high - box.low).norm();
+  }
+
+  std::vector<Island> run() {
+    FaceList all(mesh_.triangles.size());
+    std::iota(all.begin(), all.end(), 0);
+    descend(all, 0);
+    return std::move(islands_);
+  }
+
+  std::size_t merged() const { return merged_; }
+  double distance() const { return distance_; }
+
+ private:
+  /// Levels are the names, then the file's vertices, then the whole.
+  void descend(const FaceList& faces, std::size_t level) {
+    if (level > names_.size()) return add_whole(faces);
+    const std::vector<FaceList> parts =
+        level < names_.size() ? by_name(faces, names_[level]) : by_vertices(faces);
+    if (parts.size() < 2) return descend(faces, level + 1);
+    FaceList rest;
+    std::vector<const FaceList*> closed;
+    std::vector<Island> islands;
+    for (const FaceList& part : parts) {
+      Island island = island_of(part);
+      if (!is_closed(island, execution_)) {
+        rest.insert(rest.end(), part.begin(), part.end());
+        continue;
+      }
+      closed.push_back(&part);
+      if (level == names_.size()) islands.push_back(std::move(island));
+    }
+    std::sort(rest.begin(), rest.end());
+    if (!rest.empty() && !closed.empty() && is_torn(faces, rest)) {
+      return descend(faces, level + 1);
+    }
+    for (std::size_t k = 0; k < closed.size(); ++k) {
+      if (level < names_.size()) {
+        descend(*closed[k], level + 1);
+      } else {
+        islands_.push_back(std::move(islands[k]));
+      }
+    }
+    if (!rest.empty()) descend(rest, level + 1);
+  }
+
+  /// Whether the rest is open along the closed parts, because walls are there once, with the name
+  /// of one side.
+  bool is_torn(const FaceList& faces, const FaceList& rest) {
+    const Island whole = island_of(faces);
+    const std::vector<std::int32_t> rings = edge_rings(whole.mesh, execution_);
+    std::size_t open = 0;
+    std::size_t torn = 0;
+    for (std::size_t h = 0; h < rings.size(); ++h) {
+      std::size_t of_rest = 0;
+      std::size_t all = 0;
+      bool is_first = true;
+      std::size_t g = h;
+      do {
+        is_first = is_first && g >= h;
+        const std::int32_t source = whole.source[g / 3];
+        of_rest += std::binary_search(rest.begin(), rest.end(), source) ? 1U : 0U;
+        ++all;
+        g = index(rings[g]);
+      } while (is_first && g != h);
+      if (!is_first || of_rest % 2 == 0) continue;
+      ++open;
+      if (all > of_rest) ++torn;
+    }
+    return 2 * torn > open;
+  }
+
+  static std::vector<FaceList> by_name(const FaceList& faces, const NamedFaces& names) {
+    std::vector<FaceList> parts(names.names.size() + 1);  // the last without a name
+    for (const std::int32_t f : faces) {
+      const std::int32_t name = names.of_face[index(f)];
+      (name < 0 ? parts.back() : parts[index(name)]).push_back(f);
+    }
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [](const FaceList& part) { return part.empty(); }),
+                parts.end());
+    return parts;
+  }
+
+  /// Returns nothing for a format without indices, whose faces have their own corners.
+  std::vector<FaceList> by_vertices(const FaceList& faces) {
+    IndexedMesh part = extractor_.extract(faces);
+    constexpr std::size_t fewest_faces = 4;  // of a closed surface
+    // Edges would tell bodies that share a vertex apart; the next step does.
+    std::vector<std::int32_t> root(part.points.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](std::int32_t v) {
+      while (root[index(v)] != v) v = root[index(v)] = root[index(root[index(v)])];
+      return v;
+    };
+    for (const Triangle& t : part.triangles) {
+      const std::int32_t low = std::min({find(t[0]), find(t[1]), find(t[2])});
+      for (const std::int32_t v : t) root[index(find(v))] = low;
+    }
+    std::vector<std::int32_t> number(part.points.size(), -1);
+    std::vector<FaceList> parts;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      std::int32_t& known = number[index(find(part.triangles[k][0]))];
+      if (known < 0) {
+        known = static_cast<std::int32_t>(parts.size());
+        parts.emplace_back();
+      }
+      parts[index(known)].push_back(faces[k]);
+    }
+    if (parts.size() * fewest_faces > faces.size()) parts.clear();
+    return parts;
+  }
+
+  Island island_of(const FaceList& faces) {
+    Island island{extractor_.extract(faces), faces};
+    const double tolerance = MeshCheckOptions().weld_tolerance * diagonal_;
+    const Box box = box_of_faces(island.mesh, execution_);
+    merge(find_equal_points(island.mesh.points, box, tolerance, execution_).first, island);
+    return island;
+  }
+
+  void add_whole(const FaceList& faces) {
+    Island island = island_of(faces);
+    if (island.mesh.triangles.empty()) return;
+    const SeamWeld seams =
+        find_seams(island.mesh, edge_rings(island.mesh, execution_), diagonal_, execution_);
+    if (seams.weld.welded > 0) {
+      merge(seams.weld.first, island);
+      merged_ += seams.weld.welded;
+      distance_ = std::max(distance_, seams.distance);
+    }
+    islands_.push_back(std::move(island));
+  }
+
+  const IndexedMesh& mesh_;
+  const std::vector<NamedFaces>& names_;
+  const Execution& execution_;
+  Extractor extractor_;
+  double diagonal_ = 0.0;
+  std::vector<Island> islands_;
+  std::size_t merged_ = 0;
+  double distance_ = 0.0;
+};
+
+/// The surface of a body or of a void.
+struct Part {
+  IndexedMesh mesh;  ///< outward
+  Box box;
+  double volume = 0.0;  ///< if closed, else 0
+  std::size_t boundary_edges = 0;
+  FaceList source;                        ///< its faces in the file
+  std::size_t piece = 0;                  ///< parts of a piece do not contain each other
+  bool is_void = false;                   ///< an even number of surfaces lies outside
+  bool is_always_solid = false;           ///< its piece has walls between bodies
+  bool was_inward = false;                ///< in the file
+  std::vector<std::size_t> holders = {};  ///< closed parts that contain it
+};
+
+/// The outer surface of several cells.
+struct Outside {
+  IndexedMesh mesh;  ///< outward
+  double volume = 0.0;
+};
+
+/// Step 2 of split_bodies.
+class PartFinder {
+ public:
+  explicit PartFinder(const Execution& execution) : execution_(execution) {}
+
+  void add(const Island& island) {
+    const Components components =
+        find_components(island.mesh, edge_rings(island.mesh, execution_), execution_);
+    std::vector<FaceList> faces(components.list.size());
+    for (std::size_t f = 0; f < island.mesh.triangles.size(); ++f) {
+      faces[index(components.of_face[f])].push_back(static_cast<std::int32_t>(f));
+    }
+    Extractor extractor(island.mesh);
+    for (std::size_t c = 0; c < faces.size(); ++c) {
+      const Component& component = components.list[c];
+      if (component.non_manifold_edges > 0) {
+        const Island piece{extractor.extract(faces[c]), sources_of(faces[c], island.source)};
+        if (add_cells(piece)) continue;
+      }
+      Part part;
+      part.boundary_edges = component.boundary_edges;
+      const bool is_closed = component.boundary_edges == 0 && component.orientable &&
+                             component.non_manifold_edges == 0;
+      if (is_closed) part.volume = std::abs(component.volume);
+      part.was_inward = is_closed && component.volume < 0.0;
+      std::vector<char> turned;
+      for (const std::int32_t f : faces[c]) {
+        turned.push_back(static_cast<char>((components.turned[index(f)] != 0) != part.was_inward));
+      }
+      part.mesh = extractor.extract(faces[c], turned);
+      part.source = sources_of(faces[c], island.source);
+      add_part(std::move(part));
+      ++pieces;
+    }
+  }
+
+  std::vector<Part> parts;
+  std::map<std::size_t, Outside> outsides;  ///< of pieces whose parts are not their outside
+  std::size_t pieces = 0;
+  std::size_t left_out = 0;  ///< faces that enclose nothing
+  std::size_t maybe_voids = 0;
+
+ private:
+  static FaceList sources_of(const FaceList& faces, const FaceList& source) {
+    FaceList result;
+    for (const std::int32_t f : faces) result.push_back(source[index(f)]);
+    return result;
+  }
+
+  void add_part(Part part) {
+    part.box = box_of_faces(part.mesh, execution_);
+    part.piece = pieces;
+    parts.push_back(std::move(part));
+  }
+
+  [[noreturn]] static void refuse_unclear(const IndexedMesh& mesh, const MeshCells& cells,
+                                          std::int32_t h) {
+    const Vector3& p = mesh.points[index(origin_of(cells.faces, h))];
+    refuse(
+        "At (" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) +
+        ") more than two faces meet in an edge, and some of them lie on each other. So the bodies "
+        "that touch there cannot be told apart. Export each body as an object or a file of its "
+        "own, or the surfaces as .vtp with their labels.");
+  }
+
+  /// Adds the regions of a piece. Returns false if it encloses nothing.
+  bool add_cells(const Island& piece) {
+    const MeshCells cells = find_mesh_cells(piece.mesh, execution_);
+    if (cells.unclear.front() >= 0) refuse_unclear(piece.mesh, cells, cells.unclear.front());
+    IndexedMesh once;
+    once.points = piece.mesh.points;
+    once.triangles = cells.faces;
+    Extractor extractor(once);
+    std::size_t outside = 0;
+    while (!cells.list[outside].is_outside) ++outside;
+    const double volume = -cells.list[outside].volume;
+    // Regions as small as rounding makes them.
+    const double smallest = 1e-12 * volume;
+    const bool is_double = std::all_of(cells.reverse.begin(), cells.reverse.end(),
+                                       [](std::int32_t reverse) { return reverse >= 0; });
+    std::size_t found = 0;
+    for (std::size_t c = 0; c < cells.list.size(); ++c) {
+      const MeshCell& cell = cells.list[c];
+      if (cell.is_outside || !(cell.volume > smallest)) continue;
+      Part part = part_of(static_cast<std::int32_t>(c), cells, piece.source, extractor);
+      part.volume = cell.volume;
+      part.is_void = !cell.is_solid;
+      part.is_always_solid = is_double || cells.has_single_walls.front() != 0;
+      if (cell.may_be_void) ++maybe_voids;
+      add_part(std::move(part));
+      ++found;
+    }
+    if (found == 0) return false;
+    Part around = part_of(static_cast<std::int32_t>(outside), cells, piece.source, extractor);
+    for (Triangle& t : around.mesh.triangles) std::swap(t[1], t[2]);
+    outsides[pieces] = {std::move(around.mesh), volume};
+    add_rest(cells, piece, extractor);
+    ++pieces;
+    return true;
+  }
+
+  /// Returns the surface of a cell, with its normals out of it.
+  static Part part_of(std::int32_t cell, const MeshCells& cells, const FaceList& source,
+                      Extractor& extractor) {
+    FaceList faces;
+    Part part;
+    std::vector<char> turned;
+    std::size_t inward = 0;
+    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+      const bool looks_in = cells.before(f) == cell;
+      if (looks_in == (cells.behind(f) == cell)) continue;
+      const bool has_own = looks_in && cells.reverse[f] >= 0;
+      faces.push_back(static_cast<std::int32_t>(f));
+      turned.push_back(static_cast<char>(looks_in));
+      if (looks_in && !has_own) ++inward;
+      part.source.push_back(source[index(has_own ? cells.reverse[f] : cells.source[f])]);
+    }
+    part.was_inward = inward == faces.size();
+    part.mesh = extractor.extract(faces, turned);
+    return part;
+  }
+
+  /// Adds the faces with the outside on both sides, or counts them if they are few.
+  void add_rest(const MeshCells& cells, const Island& piece, Extractor& extractor) {
+    // As the limit of the repaired area. Where faces lie on each other they may be a body's.
+    const std::int32_t lying = cells.lying.front();
+    const double largest_share = lying < 0 ? 0.05 : 0.001;
+    FaceList faces;
+    double area = 0.0;
+    double rest = 0.0;
+    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+      const Triangle& t = cells.faces[f];
+      const double own =
+          triangle_area(piece.mesh.points[index(t[0])], piece.mesh.points[index(t[1])],
+                        piece.mesh.points[index(t[2])]);
+      area += own;
+      if (cells.before(f) != cells.behind(f)) continue;
+      rest += own;
+      faces.push_back(static_cast<std::int32_t>(f));
+    }
+    if (faces.empty()) return;
+    if (rest <= largest_share * area) {
+      left_out += faces.size();
+      return;
+    }
+    if (lying >= 0) refuse_unclear(piece.mesh, cells, lying);
+    Part part;
+    part.mesh = extractor.extract(faces);
+    for (const std::int32_t f : faces) {
+      part.source.push_back(piece.source[index(cells.source[index(f)])]);
+    }
+    const std::vector<std::int32_t> rings = edge_rings(part.mesh, execution_);
+    for (std::size_t h = 0; h < rings.size(); ++h) {
+      if (index(rings[h]) == h) ++part.boundary_edges;
+    }
+    add_part(std::move(part));
+  }
+
+  const Execution& execution_;
+};
+
+bool holds(const Box& outer, const Box& inner) {
+  return (outer.low.array() <= inner.low.array()).all() &&
+         (outer.high.array() >= inner.high.array()).all();
+}
+
+/// Returns a hash of the positions of a face's corners, in any order.
+std::uint64_t place_of(const IndexedMesh& mesh, const Triangle& t) {
+  std::array<std::uint64_t, 3> corners{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double coordinate : mesh.points[index(t[k])]) {
+      const double value = coordinate + 0.0;  // -0 is 0
+      std::uint64_t bits = 0;
+      static_assert(sizeof bits == sizeof value);
+      std::copy_n(reinterpret_cast<const unsigned char*>(&value), sizeof value,
+                  reinterpret_cast<unsigned char*>(&bits));
+      corners[k] = (corners[k] ^ bits) * 0x9E3779B97F4A7C15U;
+      corners[k] ^= corners[k] >> 29U;
+    }
+  }
+  return corners[0] + corners[1] + corners[2];
+}
+
+std::unordered_set<std::uint64_t> places_of(const IndexedMesh& mesh) {
+  std::unordered_set<std::uint64_t> places;
+  for (const Triangle& t : mesh.triangles) places.insert(place_of(mesh, t));
+  return places;
+}
+
+bool are_equal_volumes(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(a, b); }
+
+/// Drops closed parts that are there before. Returns their number.
+std::size_t drop_copies(PartFinder& found) {
+  std::vector<Part>& parts = found.parts;
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return parts[a].volume < parts[b].volume; });
+  std::vector<char> dropped(parts.size(), 0);
+  const auto is_copy = [&](const Part& a, const Part& b) {
+    if (a.volume == 0.0 || a.mesh.triangles.size() != b.mesh.triangles.size() ||
+        a.was_inward != b.was_inward || a.is_void || b.is_void || a.piece == b.piece ||
+        !((a.box.low - b.box.low).norm() <= 1e-9 * (a.box.high - a.box.low).norm())) {
+      return false;
+    }
+    const std::unordered_set<std::uint64_t> places = places_of(a.mesh);
+    return std::all_of(b.mesh.triangles.begin(), b.mesh.triangles.end(),
+                       [&](const Triangle& t) { return places.count(place_of(b.mesh, t)) > 0; });
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (dropped[order[i]] != 0) continue;
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      if (!are_equal_volumes(parts[order[i]].volume, parts[order[j]].volume)) break;
+      if (dropped[order[j]] == 0 && is_copy(parts[order[i]], parts[order[j]]))
+        dropped[order[j]] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (dropped[k] == 0 && kept++ != k) parts[kept - 1] = std::move(parts[k]);
+  }
+  const std::size_t count = parts.size() - kept;
+  parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(kept), parts.end());
+  return count;
+}
+
+/// Appends the centres of some faces spread over `inner`, because parts that intersect contain only
+/// some of each other's faces. Leaves out faces that both parts have, because their centres are
+/// neither inside nor outside; there is none if both have all.
+void append_centres(const Part& inner, const std::unordered_set<std::uint64_t>& outer,
+                    std::vector<Vector3>& points) {
+  constexpr std::size_t most_asked = 16;
+  FaceList own;
+  for (std::size_t f = 0; f < inner.mesh.triangles.size(); ++f) {
+    if (outer.count(place_of(inner.mesh, inner.mesh.triangles[f])) > 0) continue;
+    own.push_back(static_cast<std::int32_t>(f));
+  }
+  const std::size_t asked = std::min(own.size(), most_asked);
+  for (std::size_t k = 0; k < asked; ++k) {
+    const Triangle& t = inner.mesh.triangles[index(own[k * own.size() / asked])];
+    points.emplace_back((inner.mesh.points[index(t[0])] + inner.mesh.points[index(t[1])] +
+                         inner.mesh.points[index(t[2])]) /
+                        3.0);
+  }
+}
+
+/// The points of a part, among those of several that are asked at once.
+struct AskedPart {
+  std::size_t part;
+  std::size_t begin;
+  std::size_t end;
+  std::size_t inside = 0;  ///< number of these points inside of a mesh
+
+  std::size_t count() const { return end - begin; }
+};
+
+void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
+                  std::vector<AskedPart>& asked, const Execution& execution) {
+  if (asked.empty()) return;
+  const std::vector<char> inside = are_inside(mesh, points, execution);
+  for (AskedPart& one : asked) {
+    const auto first = inside.begin();
+    one.inside =
+        static_cast<std::size_t>(std::count(first + static_cast<std::ptrdiff_t>(one.begin),
+                                            first + static_cast<std::ptrdiff_t>(one.end), 1));
+  }
+}
+
+/// Finds for every closed part the parts that contain it.
+void find_holders(std::vector<Part>& parts, const Execution& execution) {
+  for (std::size_t outer = 0; outer < parts.size(); ++outer) {
+    execution.report(static_cast<double>(outer) / static_cast<double>(parts.size()),
+                     "Splitting the mesh");
+    const Part& holder = parts[outer];
+    if (holder.volume == 0.0) continue;
+    std::vector<AskedPart> asked;
+    std::vector<Vector3> points;
+    std::unordered_set<std::uint64_t> places;
+    for (std::size_t inner = 0; inner < parts.size(); ++inner) {
+      const Part& part = parts[inner];
+      if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box)) {
+        continue;
+      }
+      // What fills a pore is inside it, though it is as large.
+      const bool is_equal = are_equal_volumes(part.volume, holder.volume);
+      if (is_equal ? !(holder.was_inward && !part.was_inward) : part.volume > holder.volume) {
+        continue;
+      }
+      if (places.empty()) places = places_of(holder.mesh);
+      const std::size_t begin = points.size();
+      append_centres(part, places, points);
+      asked.push_back({inner, begin, points.size()});
+    }
+    count_inside(holder.mesh, points, asked, execution);
+    for (const AskedPart& one : asked) {
+      if (one.inside == one.count()) parts[one.part].holders.push_back(outer);
+    }
+  }
+}
+
+/// Appends points a little below some faces spread over a part, about an edge deep.
+void append_depths(const Part& part, std::vector<Vector3>& points) {
+  constexpr std::size_t most_asked = 16;
+  const std::vector<Triangle>& triangles = part.mesh.triangles;
+  const std::size_t asked = std::min(triangles.size(), most_asked);
+  for (std::size_t k = 0; k < asked; ++k) {
+    const Triangle& t = triangles[k * triangles.size() / asked];
+    const Vector3& a = part.mesh.points[index(t[0])];
+    const Vector3& b = part.mesh.points[index(t[1])];
+    const Vector3& c = part.mesh.points[index(t[2])];
+    const Vector3 normal = doubled_area_normal(a, b, c);
+    const double doubled_area = normal.norm();
+    if (!(doubled_area > 0.0)) continue;
+    points.emplace_back((a + b + c) / 3.0 - normal / std::sqrt(2.0 * doubled_area));
+  }
+}
+
+/// Puts what fills a pore inside it, though both intersect: their surfaces were made one by one.
+void fill_pores(std::vector<Part>& parts, const Execution& execution) {
+  const auto contains = [](const std::vector<std::size_t>& list, std::size_t one) {
+    return std::find(list.begin(), list.end(), one) != list.end();
+  };
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Part& pore = parts[p];
+    if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
+    std::vector<AskedPart> asked;
+    std::vector<Vector3> points;
+    for (std::size_t q = 0; q < parts.size(); ++q) {
+      const Part& part = parts[q];
+      if (part.volume == 0.0 || part.was_inward || part.piece == pore.piece ||
+          (part.box.low.array() > pore.box.high.array()).any() ||
+          (part.box.high.array() < pore.box.low.array()).any() || contains(part.holders, p) ||
+          std::none_of(pore.holders.begin(), pore.holders.end(),
+                       [&](std::size_t h) { return h != q && contains(part.holders, h); })) {
+        continue;
+      }
+      const std::size_t begin = points.size();
+      append_depths(part, points);
+      asked.push_back({q, begin, points.size()});
+    }
+    count_inside(pore.mesh, points, asked, execution);
+    for (const AskedPart& one : asked) {
+      if (2 * one.inside <= one.count()) continue;
+      parts[one.part].holders.push_back(p);
+      pore.holders.erase(std::remove(pore.holders.begin(), pore.holders.end(), one.part),
+                         pore.holders.end());
+    }
+  }
+}
+
+/// Adds a surface as a pore, turned inward.
+void add_pore(const IndexedMesh& pore, double volume, MeshBody& body) {
+  const auto first = static_cast<std::int32_t>(body.mesh.points.size());
+  body.mesh.points.insert(body.mesh.points.end(), pore.points.begin(), pore.points.end());
+  for (const Triangle& t : pore.triangles) {
+    body.mesh.triangles.push_back({t[0] + first, t[2] + first, t[1] + first});
+  }
+  ++body.pores;
+  body.pore_volume += volume;
+}
+
+/// Names bodies by the coarsest names that tell them apart, else by the coarsest.
+void name_bodies(const std::vector<NamedFaces>& names, const std::vector<FaceList>& sources,
+                 std::vector<MeshBody>& bodies) {
+  for (const NamedFaces& level : names) {
+    std::vector<std::int32_t> own(bodies.size(), -1);
+    std::vector<std::size_t> users(level.names.size(), 0);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      const std::int32_t name = level.of_face[index(sources[k].front())];
+      const bool has_one =
+          name >= 0 && std::all_of(sources[k].begin(), sources[k].end(),
+                                   [&](std::int32_t f) { return level.of_face[index(f)] == name; });
+      if (has_one) ++users[index(own[k] = name)];
+    }
+    std::map<std::string, std::size_t> namesakes;
+    for (const MeshBody& body : bodies) ++namesakes[body.name];
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      if (own[k] < 0) continue;
+      const bool is_better = users[index(own[k])] == 1 && namesakes[bodies[k].name] > 1;
+      if (bodies[k].name.empty() || is_better) bodies[k].name = level.names[index(own[k])];
+    }
+  }
+}
+
+/// Step 3 of split_bodies.
+std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>& names) {
+  std::vector<Part>& parts = found.parts;
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // What contains comes before what is contained.
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return parts[a].holders.size() < parts[b].holders.size();
+  });
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> place(parts.size(), 0);
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = k;
+  std::vector<char> solid(parts.size(), 0);
+  std::vector<std::size_t> container(parts.size(), none);
+  for (const std::size_t p : order) {
+    Part& part = parts[p];
+    for (const std::size_t holder : part.holders) {
+      if (container[p] == none || place[holder] > place[container[p]]) container[p] = holder;
+    }
+    const bool is_in_solid = container[p] != none && solid[container[p]] != 0;
+    solid[p] = static_cast<char>(part.is_always_solid || is_in_solid == part.is_void);
+  }
+  std::vector<MeshBody> bodies;
+  std::vector<FaceList> sources;
+  std::vector<std::size_t> of_part(parts.size(), none);
+  std::vector<std::size_t> by_face(parts.size());
+  std::iota(by_face.begin(), by_face.end(), std::size_t{0});
+  const auto first_face = [&](std::size_t p) {
+    return *std::min_element(parts[p].source.begin(), parts[p].source.end());
+  };
+  std::stable_sort(by_face.begin(), by_face.end(),
+                   [&](std::size_t a, std::size_t b) { return first_face(a) < first_face(b); });
+  for (const std::size_t p : by_face) {
+    if (solid[p] == 0) continue;
+    of_part[p] = bodies.size();
+    MeshBody body;
+    body.volume = parts[p].volume;
+    body.boundary_edges = parts[p].boundary_edges;
+    body.mesh = parts[p].mesh;
+    bodies.push_back(std::move(body));
+    sources.push_back(parts[p].source);
+  }
+  std::vector<char> is_added(found.pieces, 0);
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Part& part = parts[p];
+    if (container[p] == none || solid[container[p]] == 0 || is_added[part.piece] != 0) continue;
+    is_added[part.piece] = 1;
+    MeshBody& body = bodies[of_part[container[p]]];
+    const auto outside = found.outsides.find(part.piece);
+    if (outside == found.outsides.end()) {
+      add_pore(part.mesh, part.volume, body);
+    } else {
+      add_pore(outside->second.mesh, outside->second.volume, body);
+    }
+  }
+  name_bodies(names, sources, bodies);
+  return bodies;
+}
+
+/// Drops faces without a finite position, and their names.
+void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execution& execution) {
+  std::vector<char> kept;
+  for (const Triangle& t : mesh.triangles) {
+    kept.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t v) {
+      return v >= 0 && index(v) < mesh.points.size() && mesh.points[index(v)].allFinite();
+    }));
+  }
+  keep_usable_faces(mesh, execution);
+  for (NamedFaces& level : names) {
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < kept.size(); ++f) {
+      if (kept[f] != 0) level.of_face[count++] = level.of_face[f];
+    }
+    level.of_face.resize(count);
+  }
+}
+
+std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
+                        const Execution& execution) {
+  keep_usable(mesh, names, execution);
+  IslandFinder finder(mesh, names, execution);
+  PartFinder found(execution);
+  {
+    std::vector<Island> islands = finder.run();
+    for (Island& island : islands) {
+      found.add(island);
+      island = Island();
+    }
+  }
+  if (found.parts.empty()) {
+    refuse(
+        "All faces of the mesh have two corners in one place, so it has no body. Load closed "
+        "surfaces.");
+  }
+  MeshBodies result;
+  if (finder.merged() > 0)
+    result.warnings.push_back(merged_warning(finder.merged(), finder.distance()));
+  const std::size_t copies = drop_copies(found);
+  find_holders(found.parts, execution);
+  fill_pores(found.parts, execution);
+  result.list = assemble(found, names);
+  if (copies > 0) {
+    result.warnings.push_back(count_of(copies, "body is", "bodies are") +
+                              " there more than once. Copies were left out.");
+  }
+  if (found.left_out > 0) {
+    result.warnings.push_back(count_of(found.left_out,
+                                       "face hangs on a body and encloses nothing. It was",
+                                       "faces hang on bodies and enclose nothing. They were") +
+                              " left out.");
+  }
+  if (found.maybe_voids > 0) {
+    result.warnings.push_back("All faces of " +
+                              count_of(found.maybe_voids, "body look", "bodies look") +
+                              " into it, and it touches others on all sides. If it is a void "
+                              "between them, leave it out.");
+  }
+  return result;
+}
+
+}  // namespace wscvt

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/base/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <string>
+
+#include "support/expect_error.h"
+#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/option.h"
+
+namespace wscvt {
+namespace {
+
+std::string in_brackets(const NamedOption& option) {
+  return "<" + option.key + "|" + option.value + ">";
+}
+
+TEST(Sentence, SaysItsOptionsInTheWordsOfEachDoor) {
+  const Sentence sentence = "Raise " + mention("max-overhang", "30") + ", or set " +
+                            mention("points", "true") + " (or " + mention("degree") + ").";
+  EXPECT_EQ(sentence.text(), "Raise --max-overhang 30, or set --points (or --degree).");
+  EXPECT_EQ(sentence.in(in_brackets),
+            "Raise <max-overhang|30>, or set <points|true> (or <degree|>).");
+  // Joined to others, also to itself, and without options.
+  Sentence twice = "A. " + sentence;
+  twice += twice;
+  EXPECT_EQ(twice.in(in_brackets),
+            "A. " + sentence.in(in_brackets) + "A. " + sentence.in(in_brackets));
+  EXPECT_EQ(Sentence("a--b --c").in(in_brackets), "a--b --c");
+  EXPECT_EQ(mention("degree").in(in_brackets), "<degree|>");
+  EXPECT_TRUE(Sentence().empty());
+}
+
+TEST(Sentence, NamesOptionsByTheirTables) {
+  constexpr NumberOption<double> ratio = {"edge-ratio", "mean edge ratio", 1.0, 2.0};
+  constexpr FlagOption flag = {"points", "ignore faces", ""};
+  EXPECT_EQ(mention(ratio).in(in_brackets), "<edge-ratio|>");
+  EXPECT_EQ(mention(ratio, 1.4).in(in_brackets), "<edge-ratio|1.4>");
+  EXPECT_EQ(mention(flag).in(in_brackets), "<points|true>");
+}
+
+TEST(Sentence, OfAnErrorKeepsItsOptions) {
+  try {
+    refuse("Use " + mention("handles", "cut") + ".");
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "Use --handles cut.");
+    const Error again(error.code(), "scan.ply: " + error.sentence());
+    EXPECT_EQ(again.sentence().in(in_brackets), "scan.ply: Use <handles|cut>.");
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether the machine is at fault, by what is thrown; and the sentence.
+bool is_of_the_machine(const std::string& path, int error_number, std::string& sentence) {
+  try {
+    refuse_to_open(path, error_number);
+  } catch (const MachineRefused& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+    sentence = error.what();
+    return true;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::InputOutput);
+    sentence = error.what();
+    return false;
+  }
+}
+
+TEST(MachineRefused, IsAFileThatIsThereAndCannotBeOpened) {
+  const std::string folder = std::filesystem::temp_directory_path().string();
+  std::string sentence;
+  for (const int number : {ENOENT, EACCES, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG, EPERM, 0}) {
+    EXPECT_FALSE(is_of_the_machine(folder + "/no.ply", number, sentence)) << number;
+    EXPECT_NE(sentence.find("/no.ply\" cannot be opened. "), std::string::npos) << sentence;
+  }
+  for (const int number : {EMFILE, ENFILE, ENOMEM, EIO, ESTALE, EINTR}) {
+    EXPECT_TRUE(is_of_the_machine(folder + "/no.ply", number, sentence)) << number;
+  }
+  EXPECT_TRUE(is_of_the_machine("no.ply", EMFILE, sentence));
+  EXPECT_NE(sentence.find("Too many open files"), std::string::npos) << sentence;
+}
+
+TEST(MachineRefused, IsAFolderThatIsGone) {
+  std::string sentence;
+  EXPECT_FALSE(is_of_the_machine("no.ply", ENOENT, sentence));
+  EXPECT_TRUE(is_of_the_machine("no such folder/no.ply", ENOENT, sentence));
+  EXPECT_NE(sentence.find("the folder \"no such folder\" is not there"), std::string::npos)
+      << sentence;
+}
+
+}  // namespace
+}  // namespace wscvt
