@@ -287,6 +287,25 @@ TEST(ConvexParts, OfAScanStayWhereItIsAndTellItsRepairs) {
   EXPECT_EQ(both.warnings.size(), alone.warnings.size() + 1) << "a body was left out";
 }
 
+TEST(ConvexParts, ThatFillAHollowAreToldAndSlitsAreNot) {
+  // A thick cup: a ball without a smaller ball at its top.
+  const auto cup = [](const Vector3& p) {
+    return std::max(p.norm() - 1.0, 0.75 - (p - Vector3(0.05, 0.0, 0.55)).norm());
+  };
+  RemeshOptions options;
+  options.node_count = 150;
+  const PartsResult hull =
+      make_parts(test::scan_of(cup, 1.2, 0.1), options, at_most(1, 60), Execution(1));
+  ASSERT_FALSE(hull.warnings.empty());
+  EXPECT_NE(hull.warnings.back().text().find("fill a hollow"), std::string::npos);
+  // Two halves with a slit of 1e-4 between them: no point of the slit is on their surface.
+  const double half = 0.5 - 0.5e-4;
+  const ConvexParts halves = {
+      test::moved(test::box(1.0, 1.0, half), 1.0, Vector3(0.0, 0.0, -0.25 - 0.25e-4)),
+      test::moved(test::box(1.0, 1.0, half), 1.0, Vector3(0.0, 0.0, 0.25 + 0.25e-4))};
+  EXPECT_LT(measure_parts(halves, test::box(1.0, 1.0, 1.0)).largest_distance, 1e-3);
+}
+
 TEST(ConvexParts, OfAFileComeBackAsTheComponents) {
   const ConvexParts parts = {test::box(1.0, 2.0, 3.0),
                              test::moved(test::lumpy(1), 1.0, Vector3(7.0, 0.0, 0.0))};

@@ -229,6 +229,46 @@ TEST_F(FabricOfAFile, TakesVoxelsThatAreNoCubes) {
   for (const double ratio : ratios) EXPECT_NEAR(ratio, 1.0, 0.15);
 }
 
+// Along an axis or a diagonal of the lattice all lines around a contact are cut at the same gap.
+TEST_F(FabricOfAFile, TellsTheUncertaintyOfLinesInStep) {
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> shift(-0.5, 0.5);
+  for (const Vector3& n : {Vector3::UnitX().eval(), Vector3(1.0, 1.0, 0.0).normalized()}) {
+    double squares = 0.0;
+    constexpr int runs = 16;
+    for (int k = 0; k < runs; ++k) {
+      const Vector3 middle =
+          Vector3(28.0, 28.0, 28.0) + Vector3(shift(random), shift(random), shift(random));
+      const TwoBalls balls{middle - 11.0 * n, middle + 10.0 * n, 11.9, 11.0};
+      const Fabric fabric = measured(balls.voxels({56, 56, 56}, Vector3::Ones()));
+      ASSERT_EQ(fabric.contacts.size(), 1U);
+      const double error = fabric.contacts[0].area - balls.area();
+      squares += std::pow(error / fabric.contacts[0].area_uncertainty, 2);
+    }
+    // A standard uncertainty: the mean is 1. Without the lines' step it is 5 to 9.
+    EXPECT_LT(squares / runs, 2.0) << n.transpose();
+    EXPECT_GT(squares / runs, 0.3) << n.transpose();
+  }
+}
+
+TEST_F(FabricOfAFile, HasNormalsOfLongVoxels) {
+  const Vector3 spacing(1.0, 1.0, 2.5);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> errors;
+  for (int k = 0; k < 15; ++k) {
+    Vector3 n = Vector3(normal(random), normal(random), 0.0).normalized();
+    n = (n + Vector3::UnitZ()).normalized();  // where the voxels turn the plane of the middles most
+    const Vector3 middle(32.2, 31.8, 32.5);
+    const TwoBalls balls{middle - 12.0 * n, middle + 12.0 * n, 13.2, 13.0};
+    const Fabric fabric = measured(balls.voxels({64, 64, 26}, spacing), "1 1 2.5");
+    ASSERT_EQ(fabric.contacts.size(), 1U);
+    errors.push_back(angle_between(fabric.contacts[0].normal, balls.normal()));
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[7], 2.0);
+}
+
 TEST_F(FabricOfAFile, CountsContactsOfAChain) {
   const Fabric fabric = measured(chain());
   ASSERT_EQ(fabric.grains.size(), 4U);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <random>
 
 #include "support/distance_bodies.h"
 #include "support/expect_error.h"
@@ -43,6 +46,22 @@ TEST(Roundness, HardlyDependsOnThePose) {
   const double first = cube_roundness(0.2, 0.09, test::announced(11));
   for (const std::uint64_t pose : {12, 13}) {
     EXPECT_NEAR(cube_roundness(0.2, 0.09, pose), first, 0.01) << "pose " << pose;
+  }
+}
+
+TEST(Roundness, DoesNotDependOnTheOrderOfTheFile) {
+  const IndexedMesh mesh = test::scan_of(
+      test::turned(test::rounded_box({1.3, 1.0, 0.8}, 0.2), test::random_rotation(4)), 1.9, 0.06);
+  const double value = wadell_roundness(mesh, 0.8, ball, Execution(1)).roundness;
+  std::mt19937_64 random(test::announced(21));
+  for (int k = 0; k < 3; ++k) {
+    IndexedMesh other = mesh;
+    for (Triangle& t : other.triangles) {
+      std::rotate(t.begin(), t.begin() + static_cast<std::ptrdiff_t>(random() % 3), t.end());
+    }
+    std::shuffle(other.triangles.begin(), other.triangles.end(), random);
+    // Sums in another order differ by rounding, which may exchange two faces at the same distance.
+    EXPECT_NEAR(wadell_roundness(other, 0.8, ball, Execution(1)).roundness, value, 1e-4);
   }
 }
 

@@ -122,6 +122,10 @@ TEST(PartsReportNumbers, StandUnderTheirNames) {
   const auto mass = mass_rows({{"grain", mass_properties(result.scan)}});
   EXPECT_EQ(test::table_named(page, mass[0][0]), mass);
 
+  PartsResult exact = result;
+  exact.measures.parts_volume = (1.0 - 3e-15) * exact.measures.grain_volume;
+  EXPECT_NE(parts_lines(exact)[3].find("grain's: exact, and"), std::string::npos);
+
   PartsResult one = result;
   one.parts.resize(1);
   EXPECT_EQ(parts_lines(one)[0], "Convex parts: 1, 12 faces");

@@ -9,6 +9,7 @@
 #include "toolbox/convex/parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
@@ -104,7 +105,10 @@ void keep_volume(ConvexParts& parts, const ShapeDescriptors& grain, const Execut
 
 std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
   constexpr std::size_t samples = 20000;
-  const double beyond = 1e-6 * (all.box().high - all.box().low).norm();
+  // A slit between two parts is inside the grain and tells nothing of its surface. On sand_7228 in
+  // 12 parts, slits of 1e-4 of the size count as 8.8 % of the radius, where the surface is 5.3 %
+  // off.
+  const double beyond = 1e-3 * (all.box().high - all.box().low).norm();
   const IndexedMesh mesh = joined(parts);
   std::vector<Vector3> points;
   for (const MeshPlace& place : area_uniform_places(mesh, samples)) {
@@ -116,6 +120,18 @@ std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
     if (all.count(point + beyond * normal) == 0) points.push_back(point);
   }
   return points;
+}
+
+/// Ordinary grains in four parts are 6 to 8 % off, their hulls 9 to 18 %.
+void warn_of_hollows(PartsResult& result) {
+  constexpr double limit = 0.2;
+  const double share =
+      result.measures.largest_distance / equivalent_radius(result.measures.grain_volume);
+  if (share < limit) return;
+  result.warnings.push_back(
+      Sentence("The parts are up to ") + format_percent(share) +
+      " of the equivalent radius from the grain: they fill a hollow of it. Compare with a larger " +
+      mention(convex_parts_option) + ", or use the remesh where hollows matter.");
 }
 
 }  // namespace
@@ -174,6 +190,7 @@ PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const Con
   result.parts = convex_parts(remeshed.mesh, result.grain, options, execution.part(0.3, 0.9));
   keep_volume(result.parts, result.scan, execution.part(0.9, 0.9));
   result.measures = measure_parts(result.parts, result.grain, execution.part(0.9, 1.0));
+  warn_of_hollows(result);
   return result;
 }
 

@@ -59,7 +59,8 @@ struct PointPlane {
   Vector3 variances = Vector3::Zero();  ///< ascending
 };
 
-PointPlane plane_of(const PointSums& sums, const Lattice& lattice) {
+/// `across`: how many of the points are middles of faces or gaps across each axis.
+PointPlane plane_of(const PointSums& sums, const Vector3& across, const Lattice& lattice) {
   PointPlane plane;
   plane.count = static_cast<double>(sums.count);
   if (sums.count == 0) return plane;
@@ -72,13 +73,23 @@ PointPlane plane_of(const PointSums& sums, const Lattice& lattice) {
   const Eigen::Matrix3d halves = products / plane.count - mean * mean.transpose();
   plane.mean = 0.5 * (lattice.axes * mean);
   const Eigen::Matrix3d covariance = 0.25 * (lattice.axes * halves * lattice.axes.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  // A middle across an axis is within half a voxel of the wall along this axis, not along the
+  // normal: with long voxels the plane of the middles is turned by it.
+  Eigen::Matrix3d steps = Eigen::Matrix3d::Zero();
+  const double all = across.sum();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Vector3 axis = lattice.axes.col(k);
+    if (all > 0.0) steps += across[k] / (12.0 * all) * axis * axis.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance - steps);
+  const Vector3 least = solver.eigenvectors().col(0);
   plane.variances = solver.eigenvalues().cwiseMax(0.0);
+  plane.variances[0] = least.dot(covariance * least);
   // Points on a line, or in a heap, have no plane.
   constexpr std::int64_t fewest = 6;
   constexpr double flat = 4.0;
   if (sums.count >= fewest && plane.variances[1] > flat * plane.variances[0]) {
-    plane.normal = solver.eigenvectors().col(0);
+    plane.normal = least;
   }
   return plane;
 }
@@ -118,7 +129,7 @@ class PairMeasure {
   void measure(FabricContact& contact, double radius) const {
     contact.faces = static_cast<std::size_t>(pair_.faces.count);
     contact.raw_area = vector_.norm();
-    const PointPlane faces = plane_of(pair_.faces, lattice_);
+    const PointPlane faces = plane_of(pair_.faces, across(0, 0), lattice_);
     Vector3 origin;
     for (Eigen::Index k = 0; k < 3; ++k) {
       origin[k] = 0.5 * static_cast<double>(pair_.origin[static_cast<std::size_t>(k)]);
@@ -132,6 +143,18 @@ class PairMeasure {
   }
 
  private:
+  /// The lines with gaps of these widths along each axis.
+  Vector3 across(std::size_t narrowest, std::size_t widest) const {
+    Vector3 count = Vector3::Zero();
+    for (std::size_t gap = narrowest; gap <= widest; ++gap) {
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const std::int64_t lines = pair_.lines[gap][static_cast<std::size_t>(k)];
+        count[k] += std::abs(static_cast<double>(lines));
+      }
+    }
+    return count;
+  }
+
   /// Exact labels: the plane through the faces and through the middles of gaps of one voxel.
   /// Labels of a scan: faces wander where a watershed cuts a neck. The mean of two directions whose
   /// errors differ: the area vector, which only the rim decides, and the plane through the middles
@@ -144,7 +167,7 @@ class PairMeasure {
       sums = pair_.faces;
       sums += pair_.beside;
     }
-    const PointPlane plane = plane_of(sums, lattice_);
+    const PointPlane plane = plane_of(sums, blur_ ? across(1, widest_gap) : across(0, 1), lattice_);
     if (plane.normal.isZero()) {
       contact.normal = area;
       // One face may be off by a step of a voxel over its width.
@@ -220,11 +243,36 @@ class PairMeasure {
     }
     contact.area = area;
     contact.is_contact = area > 0.0;
-    // Lattice: each line of the ring is cut or not. Shape: a tenth of the radius of curvature.
+    // Lattice: each line of the ring is cut or not. Lines in step: the gap at which they cease to
+    // touch is anywhere between 0 and a voxel; its deviation over its mean is 1 / sqrt(3). Shape: a
+    // tenth of the radius of curvature.
     constexpr double shape = 0.1;
+    const double step = blur_ ? 0.0 : in_step(n, std::max(touching, 0.0)) / std::sqrt(3.0);
     const double face = lattice_.size * lattice_.size;
     contact.area_uncertainty =
-        std::sqrt(0.5 * std::max(ring, face) * face + shape * shape * ring * ring);
+        std::sqrt(0.5 * std::max(ring, face) * face + (shape * shape + step * step) * ring * ring);
+  }
+
+  /// The part of a line's error that the lines around a contact of this area share, 0 to 1. If the
+  /// normal is along an axis or a diagonal of the lattice, all lines meet the gap at the same place
+  /// between two voxels. Otherwise the place goes round between neighbouring lines: its mean over a
+  /// circle of the radius a is J0(2 pi a q), q turns per length, and J0(x)^2 is about
+  /// 1 / (1 + x^2 / 2).
+  double in_step(const Vector3& n, double area) const {
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double along = lattice_.axes.col(k).dot(n);
+      const double weight = lattice_.faces.col(k).dot(n) * along / lattice_.volume;
+      if (std::abs(along) < 1e-6 * lattice_.size) continue;
+      double square = 0.0;  // of q
+      for (const Eigen::Index other : {(k + 1) % 3, (k + 2) % 3}) {
+        const double turns = lattice_.axes.col(other).dot(n) / along;
+        const double rest = (turns - std::round(turns)) / lattice_.sizes[other];
+        square += rest * rest;
+      }
+      sum += weight / std::sqrt(1.0 + 2.0 * pi * area * square);
+    }
+    return sum;
   }
 
   const LabelPair& pair_;

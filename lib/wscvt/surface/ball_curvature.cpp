@@ -205,6 +205,24 @@ void link_patches(const HalfEdges& edges, SurfacePatches& patches) {
   neighbours.items.resize(kept);
 }
 
+/// The faces by their distance from the mean of their centres, so that neither the order of the
+/// faces in a file nor a rotation decides where a patch starts.
+std::vector<std::int32_t> from_the_farthest(const std::vector<Vector3>& centres) {
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& centre : centres) middle += centre;
+  middle /= static_cast<double>(std::max<std::size_t>(centres.size(), 1));
+  std::vector<std::pair<double, std::int32_t>> order;
+  order.reserve(centres.size());
+  for (const Vector3& centre : centres) {
+    order.emplace_back(-(centre - middle).squaredNorm(), static_cast<std::int32_t>(order.size()));
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::int32_t> faces;
+  faces.reserve(order.size());
+  for (const auto& [distance, face] : order) faces.push_back(face);
+  return faces;
+}
+
 }  // namespace
 
 SurfacePatches surface_patches(const IndexedMesh& mesh, double radius) {
@@ -224,7 +242,8 @@ SurfacePatches surface_patches(const IndexedMesh& mesh, double radius) {
   SurfacePatches patches;
   patches.of_faces.assign(faces, -1);
   std::vector<std::int32_t> grown;
-  for (std::size_t first = 0; first < faces; ++first) {
+  for (const std::int32_t start : from_the_farthest(centres)) {
+    const std::size_t first = index(start);
     if (patches.of_faces[first] >= 0) continue;
     const auto patch = static_cast<std::int32_t>(patches.patches.size());
     grown.assign(1, static_cast<std::int32_t>(first));

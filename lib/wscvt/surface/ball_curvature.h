@@ -27,9 +27,10 @@ struct SurfacePatches {
   std::vector<std::int32_t> of_faces;  ///< the patch of each face of the mesh
 };
 
-/// Groups the faces of a closed mesh into patches. A patch starts at a face without a patch and
-/// grows over edges, while the faces' centroids are within `radius` >= 0 (length) of the first.
-/// With radius 0 every face is a patch. Takes time linear in the faces. Throws nothing.
+/// Groups the faces of a closed mesh into patches. A patch starts at the face without a patch that
+/// is farthest from the middle of the mesh, so the order of the faces does not matter, and grows
+/// over edges, while the faces' centroids are within `radius` >= 0 (length) of the first. With
+/// radius 0 every face is a patch. Sorts the faces once. Throws nothing.
 SurfacePatches surface_patches(const IndexedMesh& mesh, double radius);
 
 /// The centre of a ball: a point, and a patch at it where the search starts.
