@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,10 +27,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Grains of one point, whose x is the number of the grain.
+/// Grains of one point, whose x is the number of the grain. With `scans`, each is read from a file
+/// in this folder.
 class Points : public GrainSource {
  public:
-  explicit Points(std::size_t count) : count_(count) {}
+  explicit Points(std::size_t count, fs::path scans = {})
+      : count_(count), scans_(std::move(scans)) {}
+  std::string file(std::size_t grain) const override {
+    return scans_.empty() ? "" : (scans_ / std::to_string(grain)).string();
+  }
   std::size_t size() const override { return count_; }
   std::string name(std::size_t grain) const override {
     return "folder/grain" + std::to_string(grain) + ".ply";
@@ -48,6 +54,7 @@ class Points : public GrainSource {
 
  private:
   std::size_t count_;
+  fs::path scans_;
 };
 
 class Job : public test::FileFolder {
@@ -181,6 +188,40 @@ TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
   EXPECT_EQ(content("out/grains.csv"), table);
   EXPECT_EQ(content("out/call.json"), batch.call);
   require_no_job((folder_ / "elsewhere").string());
+}
+
+// A scan that was replaced or repaired must not keep the result of the old one.
+TEST_F(Job, WorksAgainOnScansThatAreNewerThanTheirResults) {
+  fs::create_directories(folder_ / "scans");
+  for (int k = 0; k < 10; ++k) {
+    write_file((folder_ / "scans" / std::to_string(k)).string(), "a scan");
+  }
+  const auto later = [&](int scan, int seconds) {
+    fs::last_write_time(folder_ / "scans" / std::to_string(scan),
+                        fs::file_time_type::clock::now() + std::chrono::seconds(seconds));
+  };
+  GrainJob job = number_job("out");
+  std::atomic<int> made{0};
+  std::atomic<bool> is_repaired{false};
+  job.make = [&, make = job.make](GrainAtWork& grain) {
+    ++made;
+    if (grain.name == "folder/grain2.ply" && !is_repaired) {
+      throw Error(ErrorCode::InvalidInput, "No grain.");
+    }
+    return make(grain);
+  };
+  Points grains(10, folder_ / "scans");
+  run_job(job, grains, {1});
+  for (const auto& [scan, seconds, expected] :
+       {std::tuple(9, -100, 0), std::tuple(6, 1, 4), std::tuple(2, 2, 8)}) {
+    later(scan, seconds);
+    made = 0;
+    is_repaired = scan == 2;
+    const JobEnd end = run_job(job, grains, {1});
+    EXPECT_EQ(made, expected) << "scan " << scan;
+    EXPECT_EQ(end.failed, scan == 2 ? 0U : 1U);
+    if (seconds > 0) later(scan, -100);
+  }
 }
 
 TEST_F(Job, PartsAreTheWhole) {

@@ -29,6 +29,7 @@ class BodyGrains : public GrainSource {
 
   std::size_t size() const override { return taken_.size(); }
   std::string name(std::size_t grain) const override;
+  std::string file(std::size_t /*grain*/) const override { return path_; }
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::string census(const MadeOf& made_of) const override;
   std::size_t volumes() const override { return 1; }

@@ -99,6 +99,49 @@ bool has_call(const JobFolder& folder, const GrainJob& job) {
   return false;
 }
 
+/// When a scan was last written; a folder, such as one of slices: when its newest file was.
+fs::file_time_type time_of(const std::string& scan) {
+  std::error_code missing;
+  fs::file_time_type time = fs::last_write_time(scan, missing);
+  if (missing) return fs::file_time_type::min();
+  for (const fs::directory_entry& entry : fs::directory_iterator(scan, missing)) {
+    std::error_code ignored;
+    const fs::file_time_type other = entry.last_write_time(ignored);
+    if (!ignored) time = std::max(time, other);
+  }
+  return time;
+}
+
+/// The grains of a source and when their scans were written.
+class ScanTimes {
+ public:
+  explicit ScanTimes(const GrainSource& grains) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      const std::string scan = grains.file(k);
+      // The bodies and labels of a file stand together.
+      if (k == 0 || scan != last_) {
+        last_ = scan;
+        last_time_ = scan.empty() ? fs::file_time_type::min() : time_of(scan);
+      }
+      times_.push_back(last_time_);
+    }
+  }
+
+  /// Whether the file is missing, empty, or older than the scan of the grain.
+  bool is_old(std::size_t grain, const std::string& file) const {
+    std::error_code missing;
+    const std::uintmax_t size = fs::file_size(file, missing);
+    if (missing || size == 0) return true;
+    const fs::file_time_type written = fs::last_write_time(file, missing);
+    return missing || written < times_[grain];
+  }
+
+ private:
+  std::vector<fs::file_time_type> times_;
+  std::string last_;
+  fs::file_time_type last_time_ = fs::file_time_type::min();
+};
+
 /// The rows that parts of a sample have left in the folder of the whole.
 class PartRows {
  public:
@@ -188,11 +231,17 @@ class PartRows {
 class JobTables {
  public:
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed job
-  /// may have added a row to only some of them. With `keeps_files`, also cuts them at the first
-  /// grain whose file is missing or empty, so that it is made again.
+  /// may have added a row to only some of them. With `scans`, also cuts them at the first grain
+  /// whose file is missing, empty or older than its scan, so that it is made again. A grain that
+  /// failed has no file: its table tells the time.
   JobTables(const std::vector<JobFolder>& folders, const std::vector<JobTable>& tables,
-            const std::vector<std::string>& grains, bool keeps_files)
+            const std::vector<std::string>& grains, const ScanTimes* scans)
       : rows_(grains.size()) {
+    const std::string first = folders.front().file(tables.front().name, ".csv");
+    std::vector<bool> is_old_failure(grains.size(), false);  // opening a table may change its time
+    for (std::size_t k = 0; scans != nullptr && k < grains.size(); ++k) {
+      is_old_failure[k] = scans->is_old(k, first);
+    }
     for (const JobFolder& folder : folders) {
       for (const JobTable& table : tables) {
         tables_.push_back(
@@ -200,8 +249,14 @@ class JobTables {
         rows_ = std::min(rows_, tables_.back()->rows());
       }
     }
-    for (std::size_t k = 0; keeps_files && k < rows_; ++k) {
-      if (!tables_.front()->is_failed(k) && !has_files(folders, grains[k])) rows_ = k;
+    for (std::size_t k = 0; scans != nullptr && k < rows_; ++k) {
+      const bool is_old =
+          tables_.front()->is_failed(k)
+              ? is_old_failure[k]
+              : std::any_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
+                  return scans->is_old(k, folder.file_of(grains[k]));
+                });
+      if (is_old) rows_ = k;
     }
     for (const auto& table : tables_) table->keep(rows_);
   }
@@ -216,14 +271,6 @@ class JobTables {
   }
 
  private:
-  static bool has_files(const std::vector<JobFolder>& folders, const std::string& grain) {
-    return std::all_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
-      std::error_code missing;
-      const std::uintmax_t size = fs::file_size(folder.file_of(grain), missing);
-      return !missing && size > 0;
-    });
-  }
-
   std::size_t rows_;
   std::vector<std::unique_ptr<SampleTable>> tables_;
 };
@@ -335,7 +382,8 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
       fs::create_directories(fs::path(folder.path()) / files.folder, ignored);
     }
   }
-  JobTables tables(folders, job.tables, names, job.is_kept);
+  const ScanTimes scans(grains);
+  JobTables tables(folders, job.tables, names, job.is_kept ? &scans : nullptr);
   remove_partial_file(whole.file("call", ".json"));
   remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {
@@ -345,8 +393,11 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
     if (!census.empty()) write_file((fs::path(job.folder) / "labels.csv").string(), census);
   }
   std::vector<std::size_t> wanted;
+  std::vector<bool> is_of_part(names.size(), false);
   for (std::size_t k = tables.rows(); k < names.size(); ++k) {
-    if (!parts.has(names[k])) wanted.push_back(k);
+    is_of_part[k] = parts.has(names[k]) && (!parts.row(names[k]).error.empty() ||
+                                            !scans.is_old(k, folders.front().file_of(names[k])));
+    if (!is_of_part[k]) wanted.push_back(k);
   }
   grains.want(wanted);
   GrainRun run;
@@ -356,7 +407,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   run.when_stopped = "The same call continues from there.";
   run.name = [&](std::size_t k) { return names[k]; };
   run.work = [&](std::size_t k, const Execution& execution) {
-    return parts.has(names[k]) ? parts.row(names[k]) : row_of(job, folders, grains, k, execution);
+    return is_of_part[k] ? parts.row(names[k]) : row_of(job, folders, grains, k, execution);
   };
   run.take = [&](std::size_t, const GrainRow& row) { tables.append(row.records); };
   JobEnd end = run_grains(run, host);

@@ -68,6 +68,10 @@ std::string JoinedGrains::name(std::size_t grain) const {
   return sources_[places_[grain].source]->name(places_[grain].grain);
 }
 
+std::string JoinedGrains::file(std::size_t grain) const {
+  return sources_[places_[grain].source]->file(places_[grain].grain);
+}
+
 void JoinedGrains::want(const std::vector<std::size_t>& grains) {
   std::vector<std::vector<std::size_t>> wanted(sources_.size());
   for (const std::size_t grain : grains) {

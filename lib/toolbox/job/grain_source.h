@@ -50,6 +50,9 @@ class GrainSource {
   virtual std::size_t size() const = 0;
   virtual std::string name(std::size_t grain) const = 0;
 
+  /// Returns the file or folder that the grain is read from; empty if it is made.
+  virtual std::string file(std::size_t grain) const { return static_cast<void>(grain), ""; }
+
   /// Declares which grains will be read, ascending. Without this call, all.
   virtual void want(const std::vector<std::size_t>& grains) { static_cast<void>(grains); }
 
@@ -103,6 +106,7 @@ class MeshGrains : public GrainSource {
 
   std::size_t size() const override { return is_file() ? 1 : bodies_.list.size(); }
   std::string name(std::size_t grain) const override;
+  std::string file(std::size_t /*grain*/) const override { return path_; }
   void want(const std::vector<std::size_t>& grains) override;
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::size_t volumes() const override { return is_file() ? 0 : 1; }
@@ -126,6 +130,7 @@ class JoinedGrains : public GrainSource {
 
   std::size_t size() const override { return places_.size(); }
   std::string name(std::size_t grain) const override;
+  std::string file(std::size_t grain) const override;
   void want(const std::vector<std::size_t>& grains) override;
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::string census(const MadeOf& made_of) const override;

@@ -20,6 +20,7 @@ class LabelSource : public GrainSource {
 
   std::size_t size() const override { return grains_->taken().size(); }
   std::string name(std::size_t grain) const override;
+  std::string file(std::size_t /*grain*/) const override { return path_; }
   void want(const std::vector<std::size_t>& grains) override { grains_->want(grains); }
   /// Refuses a label whose largest piece is below the smallest grain.
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
