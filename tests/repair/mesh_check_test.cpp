@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <random>
 #include <regex>
 #include <set>
@@ -769,6 +770,36 @@ TEST(MeshCheck, TakesTheOuterSurfaceOfHollowBodies) {
     EXPECT_EQ(checked.report.inner_components, 1U);
     EXPECT_NEAR(checked.report.inner_volume_fraction, std::pow(0.95, 3), 1e-12);
     EXPECT_EQ(checked.report.dropped_volume_fraction, 0.0);
+  }
+}
+
+// Whatever vertex comes first: one that is inside the other surface or one that is not.
+TEST(MeshCheck, RefusesSurfacesThatCross) {
+  const IndexedMesh whole = sphere(3);
+  const IndexedMesh other = moved(sphere(3), 0.8, {0.9, 0.1, 0});
+  std::vector<std::size_t> order(other.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const double sign : {1.0, -1.0}) {
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return sign * other.points[a].x() < sign * other.points[b].x();
+    });
+    std::vector<std::int32_t> place(order.size());
+    IndexedMesh sorted;
+    for (const std::size_t old : order) {
+      place[old] = static_cast<std::int32_t>(sorted.points.size());
+      sorted.points.push_back(other.points[old]);
+    }
+    for (const Triangle& t : other.triangles) {
+      sorted.triangles.push_back({place[static_cast<std::size_t>(t[0])],
+                                  place[static_cast<std::size_t>(t[1])],
+                                  place[static_cast<std::size_t>(t[2])]});
+    }
+    std::sort(
+        sorted.triangles.begin(), sorted.triangles.end(), [](const Triangle& a, const Triangle& b) {
+          return *std::min_element(a.begin(), a.end()) < *std::min_element(b.begin(), b.end());
+        });
+    expect_mentions(refusal(joined(whole, sorted)),
+                    {"2 closed surfaces that cross", "--shrink-wrap 1"});
   }
 }
 

@@ -49,6 +49,18 @@ GrainSample sample_with(const Eigen::VectorXd& sizes, const SampleOptions& optio
   return sample_of(table_of(sizes), options);
 }
 
+// A grain without a mass would count by number and not by mass.
+TEST(GrainSample, LeavesOutGrainsWithoutAMass) {
+  GrainTable table = table_of(Eigen::Vector4d(1.0, 2.0, 3.0, 4.0));
+  table.values(1, 1) = no_value;  // the volume
+  const GrainSample sample = sample_of(table, {});
+  EXPECT_EQ(sample.grains, (std::vector<std::string>{"0", "2", "3"}));
+  EXPECT_EQ(sample.masses.size(), 3);
+  EXPECT_EQ(sample.masses.sum(), 1.0 + 27.0 + 64.0);
+  ASSERT_EQ(sample.notes.size(), 1U);
+  EXPECT_NE(sample.notes[0].find("1 grain without a mass"), std::string::npos);
+}
+
 TEST(GrainSample, TakesTheColumnsOfOneMesh) {
   const Eigen::Vector4d sizes(1.0, no_value, 3.0, 2.0);
   SampleOptions options;

@@ -71,7 +71,7 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
   add_files(app, "--sdf", "FILE", arguments.grids,
             "Write signed distances on a grid to this .npy, .vti or .json\n"
             "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
-            ".vti is for ParaView, .json is a level set for NetDEM");
+            ".vti is for ParaView, .json is a level set for NetDEM, positive inside");
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the remesh");
   add_tetrahedra_edge(app, arguments.tetrahedra);
   add_options(app, arguments.options);

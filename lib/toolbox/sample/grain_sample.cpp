@@ -240,10 +240,6 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   if (without > 0) {
     sample.notes.push_back(counted(without, "without a size left out."));
   }
-  if (kept.size() < 2) {
-    refuse("The table has " + counted(kept.size(), "with a size") +
-           ". Statistics need two or more.");
-  }
   const auto volume = find(sample, "volume");
   if (!volume && (options.density || !table.find("mass"))) {
     sample.notes.push_back(
@@ -251,6 +247,26 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
         "size.");
   }
   const MassOf mass_of = masses_of(table, options, sample);
+  const auto size_of = [&](Eigen::Index k) {
+    const double read = value(k, *size_place);
+    return is_from_volume ? cbrt(6.0 / pi * read) : read;
+  };
+  const auto mass_in = [&](Eigen::Index k) {
+    const double size = size_of(k);
+    return mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+  };
+  // An empty cell: without its mass the grain would count by number only.
+  const auto weighed = std::stable_partition(kept.begin(), kept.end(),
+                                             [&](Eigen::Index k) { return mass_in(k) > 0.0; });
+  if (weighed != kept.end()) {
+    sample.notes.push_back(counted(static_cast<std::size_t>(kept.end() - weighed),
+                                   "without a mass (volume, density) left out."));
+    kept.erase(weighed, kept.end());
+  }
+  if (kept.size() < 2) {
+    refuse("The table has " + counted(kept.size(), "with a size and a mass") +
+           ". Statistics need two or more.");
+  }
   const auto rows = static_cast<Eigen::Index>(kept.size());
   sample.values.resize(rows, static_cast<Eigen::Index>(places.size()));
   sample.sizes.resize(rows);
@@ -262,10 +278,8 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     for (std::size_t column = 0; column < places.size(); ++column) {
       sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
     }
-    const double read = value(k, *size_place);
-    const double size = is_from_volume ? cbrt(6.0 / pi * read) : read;
-    sample.sizes[row] = size;
-    sample.masses[row] = mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
+    sample.sizes[row] = size_of(k);
+    sample.masses[row] = mass_in(k);
   }
   // The columns are the scans' own.
   if (table.find("scan." + sample.columns[*size_place].name) == places[*size_place]) {

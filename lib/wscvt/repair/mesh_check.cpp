@@ -21,6 +21,7 @@
 #include "wscvt/repair/mesh_cells.h"
 #include "wscvt/repair/repair_steps.h"
 #include "wscvt/repair/scan_advice.h"
+#include "wscvt/repair/scan_options.h"
 #include "wscvt/repair/weld.h"
 
 namespace wscvt {
@@ -45,7 +46,7 @@ std::string count_of(std::size_t count, const std::string& noun) {
 struct OtherComponent {
   std::size_t faces = 0;
   double volume = 0.0;
-  Vector3 point = Vector3::Zero();  // on it, if possible not on the kept component
+  std::vector<Vector3> points;  // on it, if possible not on the kept component
 };
 
 /// Returns the component of largest absolute volume. Absolute, because no component was turned
@@ -68,20 +69,28 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
     for (const std::int32_t v : mesh.triangles[f]) on_main[index(v)] = 1;
   }
   // Parts may touch in a vertex, or in an edge before the sheets are separated. Such points are
-  // neither inside nor outside. If all vertices are shared, the centre of a face is used.
+  // neither inside nor outside. If all vertices are shared, the centre of a face is used. Points
+  // spread over the part, because of a part that crosses the kept one only some are inside.
+  constexpr std::size_t most_points = 32;
   std::vector<OtherComponent> list(components.list.size());
-  std::vector<char> found(list.size(), 0);
+  std::vector<Vector3> centres(list.size(), Vector3::Zero());
+  std::vector<std::size_t> seen(list.size(), 0);
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const std::size_t c = index(components.of_face[f]);
-    if (c == main || found[c] != 0) continue;
+    if (c == main) continue;
+    const std::size_t step = 1 + components.list[c].faces / most_points;
     const Triangle& t = mesh.triangles[f];
-    list[c].point =
-        (mesh.points[index(t[0])] + mesh.points[index(t[1])] + mesh.points[index(t[2])]) / 3.0;
-    for (const std::int32_t v : t) {
-      if (found[c] != 0 || on_main[index(v)] != 0) continue;
-      list[c].point = mesh.points[index(v)];
-      found[c] = 1;
+    if (seen[c]++ == 0) {
+      centres[c] =
+          (mesh.points[index(t[0])] + mesh.points[index(t[1])] + mesh.points[index(t[2])]) / 3.0;
     }
+    if (list[c].points.size() * step >= seen[c]) continue;
+    const auto own =
+        std::find_if(t.begin(), t.end(), [&](std::int32_t v) { return on_main[index(v)] == 0; });
+    if (own != t.end()) list[c].points.push_back(mesh.points[index(*own)]);
+  }
+  for (std::size_t c = 0; c < list.size(); ++c) {
+    if (list[c].points.empty()) list[c].points.push_back(centres[c]);
   }
   for (std::size_t c = 0; c < list.size(); ++c) {
     if (c == main) continue;
@@ -99,20 +108,34 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   report.components = others.size() + 1;
   if (others.empty()) return;
   std::vector<Vector3> points;
-  points.reserve(others.size());
-  for (const OtherComponent& other : others) points.push_back(other.point);
+  for (const OtherComponent& other : others) {
+    points.insert(points.end(), other.points.begin(), other.points.end());
+  }
   const std::vector<char> inside = are_inside(kept, points, execution);
   double outer_volume = 0.0;
   double inner_volume = 0.0;
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    report.dropped_faces += others[i].faces;
-    if (inside[i] != 0) ++report.inner_components;
-    (inside[i] != 0 ? inner_volume : outer_volume) += others[i].volume;
+  std::size_t crossing = 0;
+  auto next = inside.begin();
+  for (const OtherComponent& other : others) {
+    const auto end = next + static_cast<std::ptrdiff_t>(other.points.size());
+    const auto within = static_cast<std::size_t>(std::count(next, end, 1));
+    next = end;
+    report.dropped_faces += other.faces;
+    // A tenth of the points may be off, where both surfaces nearly touch.
+    const bool is_inner = 10 * within >= 9 * other.points.size();
+    if (is_inner) ++report.inner_components;
+    if (10 * within > other.points.size() && !is_inner) ++crossing;
+    (is_inner ? inner_volume : outer_volume) += other.volume;
   }
   report.inner_volume_fraction = inner_volume / report.volume;
   report.dropped_volume_fraction = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_fraction > options.dropped_volume_limit) {
     if (seam > 0.0) refuse(open_seam_sentence(seam));
+    if (crossing > 0) {
+      refuse("The mesh has " + count_of(crossing + 1, "closed surface") +
+             " that cross each other, so it is not clear what the grain is. Join them by " +
+             mention(shrink_wrap_option, 1.0) + ".");
+    }
     refuse("The mesh has " + std::to_string(report.components - report.inner_components) +
            " separate bodies and the largest has only " +
            format_percent(1.0 - report.dropped_volume_fraction) +
