@@ -58,8 +58,8 @@ void CutTree::add_node(CutSolid solid) {
 
 void CutTree::cut(std::size_t count, double power, const Execution& execution) {
   std::vector<double> costs;  // zero for nodes that must not be cut
-  // Cuts that take crumb after crumb from a piece would never end: few bodies need twice as many cuts
-  // as pieces.
+  // Cuts that take crumb after crumb from a piece would never end: few bodies need twice as many
+  // cuts as pieces.
   const std::size_t most_cuts = 8 * count;
   std::size_t cuts = 0;
   for (std::size_t pieces = 1; pieces < count && cuts < most_cuts; ++cuts) {
