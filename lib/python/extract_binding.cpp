@@ -73,7 +73,7 @@ Extracted conforming_of(const VolumeOfArray& array, const VolumeOptions& options
   walls.smoothing = options.smoothing;
   const ConformingGrains result =
       conform_labels(labels.voxels(), taken, walls, execution.part(0.1, 1.0));
-  std::vector<IndexedMesh> meshes = grain_meshes(result);
+  std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
   Extracted extracted;
   extracted.warnings = labels.warnings();
   const Sentence warning = intersection_warning(result, taken);

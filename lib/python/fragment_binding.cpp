@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/conforming/conforming_files.h"
 #include "toolbox/fragment/fragments.h"
 #include "work.h"
 
@@ -32,7 +33,7 @@ py::dict report_of(const Fragments& result) {
   std::vector<double> areas;
   std::vector<Vector3> centres;
   std::vector<Vector3> normals;
-  for (const FragmentContact& contact : result.contacts) {
+  for (const CommonWall& contact : result.contacts) {
     pairs.append(py::make_tuple(contact.first, contact.second));
     areas.push_back(contact.area);
     centres.push_back(contact.centre);
@@ -56,16 +57,28 @@ py::dict report_of(const Fragments& result) {
 
 py::tuple fragment(const Points& vertices, const py::object& faces, int fragments,
                    std::uint64_t seed, const std::vector<double>& volumes, const py::object& near,
-                   int threads, const py::object& progress) {
+                   double edge_length, int nodes, int threads, const py::object& progress) {
   FragmentOptions options;
   options.count = fragments;
   options.seed = seed;
   options.volumes = volumes;
   if (!near.is_none()) options.near = points_of(py::cast<Points>(near));
+  ConformingOptions walls;
+  walls.edge_length = edge_length;
+  walls.nodes = nodes;
+  check_conforming_options(walls);
+  const bool is_remeshed = edge_length > 0.0 || nodes > 0;
   IndexedMesh scan = mesh_of(vertices, faces);
+  Sentence intersections;
   const Fragments result = work_on(threads, progress, [&](const Execution& execution) {
-    return fragment_grain(std::move(scan), options, execution);
+    Fragments made =
+        fragment_grain(std::move(scan), options, execution.part(0.0, is_remeshed ? 0.3 : 1.0));
+    if (is_remeshed) {
+      intersections = intersection_warning(remesh_fragments(made, walls, execution.part(0.3, 1.0)));
+    }
+    return made;
   });
+  if (!intersections.empty()) warn(intersections);
   for (const Sentence& warning : result.warnings) warn(warning);
   py::list meshes;
   for (const Fragment& one : result.list) {
@@ -82,11 +95,13 @@ void bind_fragment(py::module_& module) {
       "fragment", &fragment, py::arg("vertices"), py::arg("faces"),
       py::arg("fragments") = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
       py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
-      py::arg("threads") = 0, py::arg("progress") = py::none(),
+      py::arg("edge_length") = 0.0, py::arg("nodes") = 0, py::arg("threads") = 0,
+      py::arg("progress") = py::none(),
       "Divides a grain into exactly `fragments` closed fragments that fill it and have "
       "common walls. Returns a list with a pair (vertices, faces) for each, and a dictionary "
       "with their measures and contacts. volumes: relative, one per fragment. near: points "
-      "(n, 3) near which fragments are smaller. Raises Error.");
+      "(n, 3) near which fragments are smaller. edge_length, or nodes per fragment: remeshes them "
+      "with common walls. Raises Error.");
 }
 
 }  // namespace wscvt::python

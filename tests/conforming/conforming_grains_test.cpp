@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -130,10 +131,10 @@ std::set<Corners> corners_of(const IndexedMesh& mesh) {
   return all;
 }
 
-/// Expects what holds for every volume.
-void expect_conforming(const ConformingGrains& result) {
+/// Expects what holds for all bodies of these volumes.
+void expect_conforming(const ConformingGrains& result, const std::vector<double>& volumes) {
   std::vector<std::set<Corners>> corners;
-  const std::vector<IndexedMesh> meshes = grain_meshes(result);
+  const std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
   for (std::size_t g = 0; g < result.grains.size(); ++g) {
     SCOPED_TRACE("grain " + std::to_string(g));
     const IndexedMesh& mesh = meshes[g];
@@ -141,11 +142,11 @@ void expect_conforming(const ConformingGrains& result) {
     EXPECT_EQ(mesh.points.size(), result.grains[g].nodes);
     EXPECT_EQ(mesh.triangles.size(), result.grains[g].triangles);
     // Newton steps end at 1e-13; the rest is the rounding of the sums.
-    EXPECT_NEAR(volume_of(mesh, Execution(1)) / result.grains[g].voxel_volume, 1.0, 1e-11);
+    EXPECT_NEAR(volume_of(mesh, Execution(1)) / volumes[g], 1.0, 1e-11);
     corners.push_back(corners_of(mesh));
   }
   // A grain's wall is in its neighbour, to the bit.
-  for (const ConformingWall& wall : result.walls) {
+  for (const CommonWall& wall : result.walls) {
     std::size_t common = 0;
     for (const Corners& one : corners[static_cast<std::size_t>(wall.first)]) {
       common += corners[static_cast<std::size_t>(wall.second)].count(one);
@@ -154,12 +155,18 @@ void expect_conforming(const ConformingGrains& result) {
   }
 }
 
+void expect_conforming(const ConformingGrains& result) {
+  std::vector<double> volumes;
+  for (const ConformingGrain& grain : result.grains) volumes.push_back(grain.voxel_volume);
+  expect_conforming(result, volumes);
+}
+
 TEST(ConformingGrains, TwoBallsShareADisc) {
   const ConformingGrains result = conformed(two_balls(), 2);
   expect_conforming(result);
   EXPECT_EQ(result.intersections, 0U);
   ASSERT_EQ(result.walls.size(), 1U);
-  const ConformingWall& wall = result.walls.front();
+  const CommonWall& wall = result.walls.front();
   // The disc has a radius of 5.8; its rim is in the steps of the voxels.
   EXPECT_NEAR(wall.area, 3.14 * 5.8 * 5.8, 0.25 * wall.area);
   // The steps at the rim turn the mean by up to 7 degrees, as they turn the faces of voxels.
@@ -341,6 +348,67 @@ TEST(ConformingGrains, EachGrainHasAboutTheWantedNodes) {
   }
   options.edge_length = 3.0;
   EXPECT_ERROR(check_conforming_options(options), InvalidInput);
+}
+
+Fragments fragments_of(const IndexedMesh& grain, int count, int threads = 1) {
+  FragmentOptions options;
+  options.count = count;
+  return fragment_grain(grain, options, Execution(threads));
+}
+
+TEST(ConformingGrains, FragmentsAreRemeshedWithCommonWalls) {
+  // A remesh: a scan is smoothed by one before it is divided.
+  const IndexedMesh grain =
+      test::transformed(test::lumpy(3), test::random_rotation(5), Vector3(40.0, -7.0, 3.0));
+  const double whole = volume_of(grain, Execution(1));
+  for (const int count : {1, 2, 9}) {
+    SCOPED_TRACE(count);
+    Fragments fragments = fragments_of(grain, count);
+    std::vector<double> volumes;
+    for (const Fragment& one : fragments.list) volumes.push_back(one.mass.volume);
+    const std::vector<CommonWall> cut = fragments.contacts;
+    ConformingOptions options;
+    options.nodes = 150;
+    const ConformingGrains result = remesh_fragments(fragments, options, Execution(1));
+    expect_conforming(result, volumes);
+    EXPECT_EQ(result.intersections, 0U);
+    // Long edges over short ones are rare: random triangulations have .3.
+    EXPECT_LT(result.edge_variation, 0.2);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < fragments.list.size(); ++k) {
+      const Fragment& one = fragments.list[k];
+      EXPECT_EQ(one.mesh.points.size(), result.grains[k].nodes);
+      EXPECT_NEAR(one.mass.volume / volumes[k], 1.0, 1e-11);
+      EXPECT_NEAR(static_cast<double>(one.mesh.points.size()), 150.0, 25.0);
+      sum += one.mass.volume;
+    }
+    EXPECT_NEAR(sum / whole, 1.0, 1e-11);
+    // Walls stay where the cells met: the exact volumes bend them a little.
+    ASSERT_EQ(fragments.contacts.size(), cut.size());
+    for (std::size_t k = 0; k < cut.size(); ++k) {
+      EXPECT_EQ(fragments.contacts[k].first, cut[k].first);
+      EXPECT_EQ(fragments.contacts[k].second, cut[k].second);
+      const double size = std::sqrt(cut[k].area);
+      EXPECT_LT((fragments.contacts[k].centre - cut[k].centre).norm(), 0.1 * size + 0.02);
+    }
+  }
+}
+
+TEST(ConformingGrains, FragmentsHaveTheEdgesOfTheGrain) {
+  Fragments fragments = fragments_of(test::lumpy(3), 5);
+  const double edge = mean_edge_of(test::lumpy(3));
+  const ConformingGrains usual = remesh_fragments(fragments, ConformingOptions(), Execution(1));
+  EXPECT_NEAR(usual.mean_edge / edge, 1.0, 0.05);
+  // Again, of the remesh, and by two threads.
+  ConformingOptions options;
+  options.edge_length = 1.5 * edge;
+  Fragments other = fragments;
+  const ConformingGrains wide = remesh_fragments(fragments, options, Execution(1));
+  EXPECT_NEAR(wide.mean_edge / options.edge_length, 1.0, 0.05);
+  const ConformingGrains threads = remesh_fragments(other, options, Execution(2));
+  EXPECT_EQ(threads.points, wide.points);
+  options.nodes = 100;
+  EXPECT_ERROR(remesh_fragments(fragments, options, Execution(1)), InvalidInput);
 }
 
 TEST(ConformingGrains, RefusesWhatItCannotRemesh) {

@@ -34,7 +34,7 @@ Fragments numbered_fragments() {
     all.list.push_back(one);
   }
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>(0, 1), {0, 2}, {0, 3}, {2, 3}}) {
-    FragmentContact contact;
+    CommonWall contact;
     contact.first = a;
     contact.second = b;
     contact.area = 0.5 + static_cast<double>(a + b);

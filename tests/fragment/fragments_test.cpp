@@ -17,6 +17,7 @@
 #include "toolbox/fragment/fragment_sites.h"
 #include "toolbox/sample/given_sizes.h"
 #include "wscvt/base/convex_hull.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -111,9 +112,9 @@ void expect_division(const IndexedMesh& grain, const Fragments& result, int coun
   const Walls plain = walls_of(result);
   std::vector<double> wall(result.list.size(), 0.0);
   EXPECT_EQ(plain.of.size(), result.contacts.size());
-  for (const FragmentContact& contact : result.contacts) {
+  for (const CommonWall& contact : result.contacts) {
     EXPECT_LT(contact.first, contact.second);
-    const Wall& by_hand = plain.of.at({contact.first, contact.second});
+    const Wall& by_hand = plain.of.at({index(contact.first), index(contact.second)});
     EXPECT_NEAR(by_hand.area, contact.area, rounding * result.grain.area);
     EXPECT_LT((by_hand.moment / by_hand.area - contact.centre).norm(),
               1e-9 * (1.0 + contact.centre.norm()));
@@ -256,7 +257,7 @@ TEST(Fragments, OfABoxHaveTheContactOfItsMiddle) {
   const Fragments result = divided(bar, 2);
   expect_division(bar, result, 2);
   ASSERT_EQ(result.contacts.size(), 1U);
-  const FragmentContact& contact = result.contacts[0];
+  const CommonWall& contact = result.contacts[0];
   const Vector3 along = test::random_rotation(4).col(0);
   // Lloyd's points lie on lines .07 apart.
   EXPECT_NEAR(contact.area, 1.5, 0.02);

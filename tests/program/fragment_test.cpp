@@ -61,7 +61,23 @@ TEST_F(FragmentCommand, WritesTheFormatsOfEngines) {
   EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format shp -n 80").exit_code, 0);
   const std::string shape = content("out/fragment_1.shp");
   EXPECT_NE(shape.find("name fragment_1\n"), std::string::npos);
-  EXPECT_NE(shape.find("nv 80\n"), std::string::npos) << "the remesh has the nodes";
+  const std::size_t nodes = std::stoul(shape.substr(shape.find("nv ") + 3));
+  EXPECT_NEAR(static_cast<double>(nodes), 80.0, 20.0) << "about the nodes";
+}
+
+TEST_F(FragmentCommand, RemeshesWithCommonWalls) {
+  const Outcome outcome = run("fragment grain.ply -k 4 -o out -n 100");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("4 fragments with "), std::string::npos) << outcome.output;
+  const auto rows = test::csv_records(content("out/fragments.csv"));
+  double sum = 0.0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const IndexedMesh mesh = read_mesh(path("out/" + rows[k][1]));
+    EXPECT_EQ(test::bad_edges(mesh), 0U);
+    EXPECT_NEAR(static_cast<double>(mesh.points.size()), 100.0, 20.0);
+    sum += number(rows[k], 2);
+  }
+  EXPECT_NEAR(sum / volume_of(grain, Execution(1)), 1.0, 1e-11);
 }
 
 TEST_F(FragmentCommand, FollowsASizeCurve) {
@@ -90,6 +106,8 @@ TEST_F(FragmentCommand, IsRefusedAndLeavesFilesAsTheyWere) {
                   {"grain.ply -k 1001 -o out", 2, "from 1 to 1000"},
                   {"grain.ply -k 3", 2, "--output"},
                   {"grain.ply -k 3 -o out --near 1,2", 2, "is not a point"},
+                  {"grain.ply -k 3 -o out -n 100 --edge-length 1", 2, "not both"},
+                  {"grain.ply -k 3 -o out -n -1", 2, "nodes"},
                   {"grain.ply -k 3 -o out --near 1,2,3x", 2, "is not a point"},
                   {"grain.ply -k 3 -o out --sizes curve.csv", 2, "at 100 %"},
                   {"grain.ply -k 3 -o out --format tif", 2, "Rockable"},

@@ -43,8 +43,26 @@ def test_volumes_and_points_steer_the_sizes():
     assert len(one) == 1 and len(report["contacts"]["area"]) == 0
 
 
+def test_remeshed_fragments_share_walls():
+    grain = wscvt.remesh(GRAIN, 1000)
+    whole = volume_of(grain.vertices, grain.faces)
+    fragments, report = wscvt.fragment(grain, fragments=5, nodes=120)
+    volumes = [volume_of(*one) for one in fragments]
+    np.testing.assert_allclose(volumes, report["volume"], rtol=1e-10)
+    assert sum(volumes) == pytest.approx(whole, rel=1e-10)
+    corners = [{vertices[face].tobytes() for face in np.sort(faces)}
+               for vertices, faces in fragments]
+    for (first, second), area in zip(report["contacts"]["fragments"], report["contacts"]["area"]):
+        if area > 0.01:
+            assert corners[first] & corners[second], "triangles of the wall, to the bit"
+    assert all(abs(len(vertices) - 120) < 30 for vertices, _ in fragments)
+    by_edge, _ = wscvt.fragment(grain, fragments=5, edge_length=0.3)
+    assert len(by_edge[0][0]) < 120
+
+
 def test_wrong_arguments_are_refused():
-    for wrong in ({"fragments": 0}, {"fragments": 1001}, {"fragments": 2, "volumes": [1]}):
+    for wrong in ({"fragments": 0}, {"fragments": 1001}, {"fragments": 2, "volumes": [1]},
+                  {"nodes": 100, "edge_length": 1}, {"edge_length": -1}):
         with pytest.raises(wscvt.Error):
             wscvt.fragment(GRAIN, **wrong)
     with pytest.raises(wscvt.Error, match="one of them"):

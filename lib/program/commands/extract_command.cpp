@@ -64,7 +64,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   options.smoothing = arguments.job.volume.smoothing;
   const ConformingGrains result =
       conform_labels(grains.voxels(), labels, options, work.execution());
-  const std::vector<IndexedMesh> meshes = grain_meshes(result);
+  const std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
   std::vector<std::string> files;
   for (std::size_t g = 0; g < labels.size(); ++g) {
     files.push_back(std::to_string(labels[g]) + "." + arguments.job.format);

@@ -15,6 +15,8 @@
 #include "program/call/exit_code.h"
 #include "program/commands/commands.h"
 #include "program/terminal/work.h"
+#include "toolbox/conforming/conforming_files.h"
+#include "toolbox/conforming/conforming_grains.h"
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/fragment/fragment_options.h"
@@ -24,7 +26,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/remesh.h"
 
 namespace wscvt::program {
 
@@ -38,18 +39,13 @@ struct FragmentArguments {
   FragmentOptions options;
   std::string sizes;              ///< file of a size curve; empty: about equal
   std::vector<std::string> near;  ///< points, "x,y,z"
-  int nodes = 0;                  ///< of each fragment's remesh; 0: its own surface
+  ConformingOptions walls;        ///< of a remesh, if one is asked for
   double density = 1.0;
   TetrahedraArguments tetrahedra;
   CommonArguments common;
 };
 
 namespace fs = std::filesystem;
-
-constexpr NumberOption<int> fragment_nodes_option = {
-    "nodes",    "number of nodes",
-    0,          1000000,
-    Ends::Both, "of a remesh of each fragment, whose walls are then its own. 0: no remesh"};
 
 Vector3 point_of(const std::string& text) {
   Vector3 point;
@@ -76,22 +72,10 @@ FragmentOptions options_of(const FragmentArguments& arguments) {
   return options;
 }
 
-/// Replaces the meshes by remeshes. Throws Error, naming the fragment.
-void remesh_each(Fragments& fragments, int nodes, const Execution& execution) {
-  RemeshOptions options;
-  options.node_count = nodes;
-  const auto count = static_cast<double>(fragments.list.size());
-  for (std::size_t k = 0; k < fragments.list.size(); ++k) {
-    const auto place = static_cast<double>(k);
-    IndexedMesh& mesh = fragments.list[k].mesh;
-    try {
-      mesh = remesh(std::move(mesh), options, execution.part(place / count, (place + 1.0) / count))
-                 .mesh;
-    } catch (const Error& error) {
-      if (error.code() == ErrorCode::Cancelled) throw;
-      throw Error(error.code(), "Fragment " + std::to_string(k + 1) + ": " + error.what());
-    }
-  }
+/// Whether the fragments' walls are remeshed. Cut walls have triangles that are too thin to fill.
+bool is_remeshed(const FragmentArguments& arguments) {
+  return arguments.walls.nodes > 0 || arguments.walls.edge_length > 0.0 ||
+         !arguments.tetrahedra.files.empty();
 }
 
 CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
@@ -103,8 +87,9 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
         "grain.ply -k 100 -o fragments --sizes sieve.csv",
         "grain.ply -k 20 -o fragments -n 200 --format shp"},
        "OUT gets fragment_1.ply to fragment_K.ply, fragments.csv, and contacts.csv with the area, "
-       "centre\nand normal of each wall. Two fragments have the same triangles on their wall. "
-       "Remesh a dense\nscan first: the fragments keep all points of the surface."});
+       "centre\nand normal of each wall. Two fragments have the same triangles on their wall, and "
+       "keep all points\nof the surface. With -n, --edge-length or --tetrahedra they are remeshed "
+       "with even edges."});
   add_file_argument(app, "grain", arguments.grain, mesh_argument_text("Grain", MeshUse::Read))
       ->required();
   add_folder_argument(app, arguments.folder);
@@ -118,14 +103,14 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
       ->type_name("X,Y,Z")
       ->allow_extra_args(false);
   add_number(app, "--seed", arguments.options.seed, sample_seed_option);
-  add_number(app, "-n,--nodes", arguments.nodes, fragment_nodes_option);
+  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option);
+  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
   app.add_option("--format", arguments.format,
                  "Ending of the fragments' files: that of a mesh, urdf, xml (MuJoCo) or shp "
                  "(Rockable, exaDEM). Default: ply")
       ->type_name("NAME");
   add_number(app, "--density", arguments.density, parts_density_option);
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the fragments");
-  add_tetrahedra_edge(app, arguments.tetrahedra);
   add_threads_argument(app, arguments.common.threads);
   app.add_flag("-q,--quiet", arguments.common.quiet, "Print only warnings");
   return app;
@@ -137,7 +122,7 @@ int run(const FragmentArguments& arguments) {
   const FragmentOptions options = checked([&] {
     check_mesh_input(arguments.grain);
     check_fragment_format(arguments.format);
-    require_in_range(arguments.nodes, fragment_nodes_option);
+    check_conforming_options(arguments.walls);
     require_in_range(arguments.density, parts_density_option);
     check_tetrahedra_arguments(arguments.tetrahedra);
     const FragmentOptions read = options_of(arguments);
@@ -150,13 +135,22 @@ int run(const FragmentArguments& arguments) {
     return read;
   });
   Work work(arguments.common.threads, arguments.common.quiet);
-  const double cut_share = arguments.nodes > 0 ? 0.3 : 1.0;
+  const double cut_share = is_remeshed(arguments) ? 0.3 : 1.0;
   MeshFile file = read_mesh_file(arguments.grain, work.execution().part(0.0, reading_share));
   Fragments fragments = fragment_grain(std::move(file.mesh), options,
                                        work.execution().part(reading_share, cut_share));
-  if (arguments.nodes > 0) {
-    remesh_each(fragments, arguments.nodes, work.execution().part(cut_share, 1.0));
+  std::vector<Sentence> warnings(file.warnings.begin(), file.warnings.end());
+  warnings.insert(warnings.end(), fragments.warnings.begin(), fragments.warnings.end());
+  std::vector<std::string> lines;
+  if (is_remeshed(arguments)) {
+    const ConformingGrains remeshed =
+        remesh_fragments(fragments, arguments.walls, work.execution().part(cut_share, 1.0));
+    lines = conforming_lines(remeshed);
+    const Sentence warning = intersection_warning(remeshed);
+    if (!warning.empty()) warnings.push_back(warning);
   }
+  const std::vector<std::string> about = fragment_lines(fragments);
+  lines.insert(lines.begin(), about.begin(), about.end());
   require_no_job(arguments.folder);
   const MadeFolder made(arguments.folder);
   for (std::size_t k = 0; k < files.size(); ++k) {
@@ -170,9 +164,6 @@ int run(const FragmentArguments& arguments) {
   work.write((folder / "contacts.csv").string(), [&](const std::string& path, const Execution&) {
     write_file(path, fragment_contacts_csv(fragments));
   });
-  std::vector<Sentence> warnings(file.warnings.begin(), file.warnings.end());
-  warnings.insert(warnings.end(), fragments.warnings.begin(), fragments.warnings.end());
-  std::vector<std::string> lines = fragment_lines(fragments);
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
     std::vector<IndexedMesh> meshes;
     std::vector<std::string> names;
@@ -180,7 +171,7 @@ int run(const FragmentArguments& arguments) {
       meshes.push_back(one.mesh);
       names.push_back(std::to_string(names.size() + 1));
     }
-    return tetrahedra_in(meshes, "fragment", names, arguments.tetrahedra.edge, work.execution());
+    return tetrahedra_in(meshes, "fragment", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
   work.print(warnings, lines);

@@ -484,6 +484,8 @@ def fragment(vertices, faces=None, fragments=20, *, near=None, **options):
     near: points (n, 3) near which fragments are smaller, such as contacts.
     volumes: relative volumes, one per fragment; about equal by default. Not together with near.
     seed: the same seed gives the same fragments; 1 by default.
+    nodes: about so many of each fragment, or edge_length: remeshes the fragments with even edges and
+    common walls. By default they keep all points of the grain's surface.
     threads, progress: as for remesh.
 
     Returns a list with a pair (vertices, faces) for each fragment, and a dictionary:

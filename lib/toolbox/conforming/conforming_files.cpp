@@ -172,7 +172,7 @@ std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& 
 std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& labels) {
   std::string text =
       csv_record({"first", "second", "area", "x", "y", "z", "nx", "ny", "nz", "triangles"});
-  for (const ConformingWall& wall : grains.walls) {
+  for (const CommonWall& wall : grains.walls) {
     std::vector<std::string> fields = {side_text(wall.first, labels),
                                        side_text(wall.second, labels), format_exact(wall.area)};
     for (const Vector3& v : {wall.centre, wall.normal}) {
@@ -202,33 +202,57 @@ std::string conforming_csv(const ConformingGrains& grains, const std::vector<Lab
 std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
   std::int64_t voxels = 0;
   for (const ConformingGrain& grain : grains.grains) voxels += grain.voxels;
-  const double share = static_cast<double>(grains.gained_voxels) / static_cast<double>(voxels);
-  return {std::to_string(grains.grains.size()) + " grains with " +
-              std::to_string(grains.walls.size()) +
-              " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
-              std::to_string(grains.triangles.size()) + " triangles",
-          "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
-              format_percent(grains.edge_variation) + " of it",
-          "Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
-              format_percent(share) + " of the grains, went to the grains beside them",
-          "Volumes: exact within " + format_number(100.0 * grains.volume_error, 2) + " %",
-          "Intersecting pairs of triangles: " + std::to_string(grains.intersections)};
+  std::vector<std::string> lines = {
+      std::to_string(grains.grains.size()) + (voxels > 0 ? " grains" : " fragments") + " with " +
+          std::to_string(grains.walls.size()) +
+          " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
+          std::to_string(grains.triangles.size()) + " triangles",
+      "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
+          format_percent(grains.edge_variation) + " of it"};
+  if (voxels > 0) {
+    const double share = static_cast<double>(grains.gained_voxels) / static_cast<double>(voxels);
+    lines.push_back("Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
+                    format_percent(share) + " of the grains, went to the grains beside them");
+  }
+  lines.push_back("Volumes: exact within " + format_number(100.0 * grains.volume_error, 2) + " %");
+  lines.push_back("Intersecting pairs of triangles: " + std::to_string(grains.intersections));
+  return lines;
 }
+
+namespace {
+
+/// Returns the bodies that have intersecting triangles, by their names.
+std::string intersecting(const ConformingGrains& grains, const std::vector<std::string>& names) {
+  constexpr std::size_t most_named = 10;
+  std::string list;
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < names.size(); ++g) {
+    if (!grains.grains[g].intersects || ++count > most_named) continue;
+    list += (list.empty() ? "" : ", ") + names[g];
+  }
+  return count > most_named ? list + " and " + std::to_string(count - most_named) + " more" : list;
+}
+
+}  // namespace
 
 Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels) {
   if (grains.intersections == 0) return {};
-  constexpr std::size_t most_named = 10;
-  std::string names;
-  std::size_t count = 0;
-  for (std::size_t g = 0; g < labels.size(); ++g) {
-    if (!grains.grains[g].intersects || ++count > most_named) continue;
-    names += (names.empty() ? "" : ", ") + std::to_string(labels[g]);
-  }
-  if (count > most_named) names += " and " + std::to_string(count - most_named) + " more";
+  std::vector<std::string> names;
+  for (const Label label : labels) names.push_back(std::to_string(label));
   return std::to_string(grains.intersections) +
-         " pairs of triangles intersect, in thin parts of the grains " + names +
-         ". Give a smaller " + mention(edge_length_option) +
+         " pairs of triangles intersect, in thin parts of the grains " +
+         intersecting(grains, names) + ". Give a smaller " + mention(edge_length_option) +
          ", or segment the volume with less noise.";
+}
+
+Sentence intersection_warning(const ConformingGrains& fragments) {
+  if (fragments.intersections == 0) return {};
+  std::vector<std::string> names;
+  for (std::size_t k = 1; k <= fragments.grains.size(); ++k) names.push_back(std::to_string(k));
+  return std::to_string(fragments.intersections) +
+         " pairs of triangles intersect, in thin parts of the fragments " +
+         intersecting(fragments, names) + ". Give a smaller " + mention(edge_length_option) +
+         " or more nodes.";
 }
 
 }  // namespace wscvt

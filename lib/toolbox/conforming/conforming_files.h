@@ -39,11 +39,14 @@ std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& 
 std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
                            const std::vector<std::string>& files);
 
-/// Returns lines for a log.
+/// Returns lines for a log, of grains of voxels or of fragments.
 std::vector<std::string> conforming_lines(const ConformingGrains& grains);
 
 /// Returns a sentence for the user about triangles that intersect, with the grains that have them;
 /// empty if none do.
 Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels);
+
+/// The same of remeshed fragments, which have the numbers from 1 on.
+Sentence intersection_warning(const ConformingGrains& fragments);
 
 }  // namespace wscvt

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 #include <utility>
 
@@ -26,6 +25,15 @@ namespace {
 constexpr double edges_across = 2.0;
 
 constexpr std::int64_t fewest_voxels = 64;  ///< a cube of 4; smoothing halves smaller ones
+
+/// Returns the edge length for each grain, shorter for small ones.
+std::vector<double> edges_below(double most, const std::vector<double>& volumes) {
+  std::vector<double> edges;
+  for (const double volume : volumes) {
+    edges.push_back(std::min(most, portable::cbrt(volume) / edges_across));
+  }
+  return edges;
+}
 
 /// Returns the longest edge of a voxel.
 double longest_voxel_edge(const VolumeGeometry& geometry) {
@@ -52,30 +60,15 @@ void count_nodes(ConformingGrains& result) {
 }
 
 void measure_walls(ConformingGrains& result) {
-  std::map<std::pair<std::int32_t, std::int32_t>, ConformingWall> walls;
   for (const WallTriangle& t : result.triangles) {
-    ++result.grains[index(t.inner)].triangles;
-    if (t.outer < 0) continue;
-    ++result.grains[index(t.outer)].triangles;
-    const Vector3& a = result.points[index(t.corners[0])];
-    const Vector3& b = result.points[index(t.corners[1])];
-    const Vector3& c = result.points[index(t.corners[2])];
-    ConformingWall& wall = walls[{t.outer, t.inner}];
-    wall.first = t.outer;
-    wall.second = t.inner;
-    ++wall.triangles;
-    const Vector3 normal = doubled_area_normal(a, b, c);
-    const double area = 0.5 * normal.norm();
-    wall.area += area;
-    wall.centre += area / 3.0 * (a + b + c);
-    wall.normal -= normal;  // triangles are seen from `outer`, the first
+    for (const std::int32_t grain : {t.inner, t.outer}) {
+      if (grain >= 0) ++result.grains[index(grain)].triangles;
+    }
   }
-  for (auto& [grains, wall] : walls) {
-    if (wall.area > 0.0) wall.centre /= wall.area;
-    wall.normal.normalize();
+  result.walls = common_walls(result);
+  for (const CommonWall& wall : result.walls) {
     ++result.grains[index(wall.first)].contacts;
     ++result.grains[index(wall.second)].contacts;
-    result.walls.push_back(wall);
   }
 }
 
@@ -99,29 +92,6 @@ void measure_edges(ConformingGrains& result) {
       result.mean_edge;
 }
 
-/// Returns the closed mesh of a grain. `by_grain`: the triangles of each.
-IndexedMesh mesh_of(const ConformingGrains& grains, const Groups& by_grain, std::size_t grain) {
-  IndexedMesh mesh;
-  std::vector<std::int32_t> used;
-  for (const std::int32_t* at = by_grain.begin(grain); at != by_grain.end(grain); ++at) {
-    const WallTriangle& t = grains.triangles[index(*at)];
-    Triangle corners = t.corners;
-    if (index(t.inner) != grain) std::swap(corners[1], corners[2]);
-    mesh.triangles.push_back(corners);
-    used.insert(used.end(), corners.begin(), corners.end());
-  }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::int32_t v : used) mesh.points.push_back(grains.points[index(v)]);
-  for (Triangle& t : mesh.triangles) {
-    for (std::int32_t& corner : t) {
-      corner = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), corner) -
-                                         used.begin());
-    }
-  }
-  return mesh;
-}
-
 /// Makes all grains well-composed and of one piece. Returns the number of changed voxels.
 std::size_t compose(GrainVoxels& voxels, std::size_t grains) {
   constexpr int most_rounds = 10;
@@ -135,6 +105,52 @@ std::size_t compose(GrainVoxels& voxels, std::size_t grains) {
   throw Error(ErrorCode::NumericalFailure,
               "The grains fall into pieces again and again when they are made well-composed. "
               "Segment the volume with less noise.");
+}
+
+/// Remeshes dense walls. `edges`: wanted of each grain; `least`: see WallRemesher; `dense_edge`:
+/// see finish_walls. Fills in all but what is of voxels.
+void remesh_walls(const DenseWalls& dense, const std::vector<double>& volumes,
+                  std::vector<double> edges, const std::vector<double>& least, int nodes,
+                  bool drops_walls, ConformingGrains& result, const Execution& execution) {
+  WallRemesher remesher(dense, std::move(edges));
+  remesher.mesh().drops_walls = drops_walls;
+  remesher.run(least, nodes, execution.part(0.0, 0.75));
+  const FinishedWalls finished =
+      finish_walls(remesher.mesh(), volumes, *std::min_element(least.begin(), least.end()),
+                   execution.part(0.75, 1.0));
+  static_cast<WallComplex&>(result) = std::move(remesher.mesh());
+  result.intersections = finished.pairs.size();
+  for (const auto& [a, b] : finished.pairs) {
+    for (const std::int32_t t : {a, b}) {
+      const WallTriangle& triangle = result.triangles[index(t)];
+      for (const std::int32_t grain : {triangle.inner, triangle.outer}) {
+        if (grain >= 0) result.grains[index(grain)].intersects = true;
+      }
+    }
+  }
+  result.volume_error = finished.volume_error;
+  const std::vector<double> got = wall_volumes(result, volumes.size());
+  for (std::size_t g = 0; g < got.size(); ++g) result.grains[g].volume = got[g];
+  count_nodes(result);
+  measure_walls(result);
+  measure_edges(result);
+}
+
+/// Returns the edge length of each body that has about `nodes` of them: a closed mesh has twice as
+/// many triangles, here regular ones.
+std::vector<double> edges_for(const WallComplex& walls, std::size_t bodies, int nodes) {
+  std::vector<double> areas(bodies, 0.0);
+  for (const WallTriangle& t : walls.triangles) {
+    const double area =
+        triangle_area(walls.points[index(t.corners[0])], walls.points[index(t.corners[1])],
+                      walls.points[index(t.corners[2])]);
+    for (const std::int32_t body : {t.inner, t.outer}) {
+      if (body >= 0) areas[index(body)] += area;
+    }
+  }
+  const double of_triangles = std::sqrt(0.75) * nodes;  // edges squared
+  for (double& area : areas) area = std::sqrt(area / of_triangles);
+  return areas;
 }
 
 }  // namespace
@@ -188,46 +204,35 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   VoxelWalls walls = voxel_walls(voxels);
   voxels = GrainVoxels({0, 0, 0});
   const DenseWalls dense(std::move(walls), options.smoothing, geometry, execution.part(0.15, 0.4));
-  std::vector<double> edges;
-  for (const double volume : volumes) {
-    edges.push_back(std::min(edge, portable::cbrt(volume) / edges_across));
-  }
-  WallRemesher remesher(dense, std::move(edges));
-  remesher.run(voxel, options.nodes, execution.part(0.4, 0.85));
-  const FinishedWalls finished =
-      finish_walls(remesher.mesh(), volumes, voxel, execution.part(0.85, 1.0));
-  result.points = std::move(remesher.mesh().points);
-  result.triangles = std::move(remesher.mesh().triangles);
-  result.intersections = finished.pairs.size();
-  for (const auto& [a, b] : finished.pairs) {
-    for (const std::int32_t t : {a, b}) {
-      const WallTriangle& triangle = result.triangles[index(t)];
-      for (const std::int32_t grain : {triangle.inner, triangle.outer}) {
-        if (grain >= 0) result.grains[index(grain)].intersects = true;
-      }
-    }
-  }
-  result.volume_error = finished.volume_error;
-  const std::vector<double> got = wall_volumes(result.points, result.triangles, grains);
-  for (std::size_t g = 0; g < grains; ++g) result.grains[g].volume = got[g];
-  count_nodes(result);
-  measure_walls(result);
-  measure_edges(result);
+  std::vector<double> edges = options.nodes > 0 ? edges_for(dense.walls(), grains, options.nodes)
+                                                : edges_below(edge, volumes);
+  remesh_walls(dense, volumes, std::move(edges), std::vector<double>(grains, voxel), options.nodes,
+               false, result, execution.part(0.4, 1.0));
   return result;
 }
 
-std::vector<IndexedMesh> grain_meshes(const ConformingGrains& grains) {
-  const Groups by_grain = counting_sort(grains.triangles.size(), grains.grains.size(),
-                                        [&](std::size_t t, const auto& visit) {
-                                          const WallTriangle& triangle = grains.triangles[t];
-                                          visit(index(triangle.inner));
-                                          if (triangle.outer >= 0) visit(index(triangle.outer));
-                                        });
-  std::vector<IndexedMesh> meshes;
-  for (std::size_t grain = 0; grain < grains.grains.size(); ++grain) {
-    meshes.push_back(mesh_of(grains, by_grain, grain));
-  }
-  return meshes;
+ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions& options,
+                                  const Execution& execution) {
+  check_conforming_options(options);
+  ConformingGrains result;
+  result.grains.resize(fragments.list.size());
+  const std::vector<double> volumes = wall_volumes(fragments.walls, fragments.list.size());
+  std::vector<double> edges =
+      options.nodes > 0
+          ? edges_for(fragments.walls, volumes.size(), options.nodes)
+          : edges_below(options.edge_length > 0.0 ? options.edge_length : fragments.grain_edge,
+                        volumes);
+  // As of voxels, a third of the edges follows bent surfaces.
+  std::vector<double> least = edges;
+  for (double& edge : least) edge /= 3.0;
+  const DenseWalls cut(fragments.walls);
+  WallRemesher dense(cut, least);
+  dense.refine(execution.part(0.0, 0.1));
+  remesh_walls(DenseWalls(std::move(dense.mesh())), volumes, std::move(edges), least, options.nodes,
+               true, result, execution.part(0.1, 0.95));
+  fragments.walls = result;
+  measure_fragments(fragments, execution.part(0.95, 1.0));
+  return result;
 }
 
 }  // namespace wscvt

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "toolbox/conforming/grain_voxels.h"
-#include "toolbox/conforming/wall_triangle.h"
+#include "toolbox/fragment/common_walls.h"
+#include "toolbox/fragment/fragments.h"
 #include "toolbox/volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
@@ -16,16 +17,17 @@
 
 namespace wscvt {
 
-/// Options of conform_grains.
+/// Options of conform_grains and remesh_fragments.
 struct ConformingOptions {
-  double edge_length = 0.0;  ///< mean of all edges; length; 0: three voxels
+  double edge_length = 0.0;  ///< mean of all edges; length; 0: three voxels, or the grain's
   int nodes = 0;       ///< about so many of each grain, instead of edge_length; 0: as that says
-  int smoothing = 20;  ///< passes, see smoothed_surface
+  int smoothing = 20;  ///< of voxels: passes, see smoothed_surface
 };
 
 inline constexpr NumberOption<double> edge_length_option = {
-    "edge-length", "mean edge length",  0.0, std::numeric_limits<double>::infinity(),
-    Ends::Both,    "0 for three voxels"};
+    "edge-length", "mean edge length",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Both,    "0 for three voxels, or the edges of the grain that is divided"};
 
 inline constexpr NumberOption<int> wall_nodes_option = {
     "nodes",    "about this number of nodes of each grain",
@@ -50,29 +52,16 @@ struct ConformingGrain {
   bool intersects = false;   ///< a triangle of its walls intersects another one
 };
 
-/// A wall between two grains, which may be several patches.
-struct ConformingWall {
-  std::int32_t first = 0;   ///< index of the grain
-  std::int32_t second = 0;  ///< larger
-  std::size_t triangles = 0;
-  double area = 0.0;                 ///< length^2
-  Vector3 centre = Vector3::Zero();  ///< of the area
-  Vector3 normal = Vector3::Zero();  ///< mean, from the first to the second; length 1
-};
-
-/// All grains as one complex of triangles: grains that touch have the nodes and triangles of their
-/// wall in common, walls that meet have their line in common.
-struct ConformingGrains {
-  std::vector<Vector3> points;
-  std::vector<WallTriangle> triangles;  ///< each once
+/// All grains as one complex of triangles.
+struct ConformingGrains : WallComplex {
   std::vector<ConformingGrain> grains;
-  std::vector<ConformingWall> walls;  ///< between grains; by first, then second
-  std::int64_t gained_voxels = 0;     ///< from thin gaps, of all grains
-  std::size_t changed_voxels = 0;     ///< so that no grain touches itself in an edge or corner
-  std::size_t intersections = 0;      ///< pairs of triangles that are left
-  double mean_edge = 0.0;             ///< length
-  double edge_variation = 0.0;        ///< standard deviation over mean
-  double volume_error = 0.0;          ///< largest, relative
+  std::vector<CommonWall> walls;   ///< between grains; by first, then second
+  std::int64_t gained_voxels = 0;  ///< from thin gaps, of all grains
+  std::size_t changed_voxels = 0;  ///< so that no grain touches itself in an edge or corner
+  std::size_t intersections = 0;   ///< pairs of triangles that are left
+  double mean_edge = 0.0;          ///< length
+  double edge_variation = 0.0;     ///< standard deviation over mean
+  double volume_error = 0.0;       ///< largest, relative
 };
 
 /// Remeshes all grains of a volume at once. `voxels`: grains are numbered from 0; the outermost
@@ -95,8 +84,12 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
                                 const Execution& execution);
 
-/// Returns the closed mesh of each grain. Its nodes and triangles are in the order of the complex,
-/// so that two grains have the same numbers, to the bit, on their wall.
-std::vector<IndexedMesh> grain_meshes(const ConformingGrains& grains);
+/// Replaces the meshes of fragments by remeshes, in the same way: two that touch have the nodes and
+/// triangles of their wall in common, walls stay where the cells met, and each fragment keeps its
+/// volume. Without an edge length or nodes the edges are as long as the grain's. Measures the
+/// fragments anew. Returns the complex of `fragments.walls`, with 0 for what is of voxels. Throws
+/// Error: InvalidInput as check_conforming_options; Cancelled.
+ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions& options,
+                                  const Execution& execution);
 
 }  // namespace wscvt

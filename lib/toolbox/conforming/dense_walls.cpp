@@ -17,15 +17,17 @@ constexpr std::size_t smoothing_block = 8192;  ///< vertices
 
 /// Returns the neighbours of a vertex along lines: the ends of edges that are not between exactly
 /// two faces of one wall. Ascending.
-std::vector<std::int32_t> line_ends(const std::vector<WallQuad>& quads, const Groups& quads_at,
+template <class Face>
+std::vector<std::int32_t> line_ends(const std::vector<Face>& faces, const Groups& faces_at,
                                     std::size_t vertex) {
   std::vector<std::tuple<std::int32_t, std::int32_t, std::int32_t>> edges;
-  for (const std::int32_t* q = quads_at.begin(vertex); q != quads_at.end(vertex); ++q) {
-    const WallQuad& quad = quads[index(*q)];
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (index(quad.corners[k]) != vertex) continue;
-      edges.emplace_back(quad.corners[(k + 1) % 4], quad.inner, quad.outer);
-      edges.emplace_back(quad.corners[(k + 3) % 4], quad.inner, quad.outer);
+  for (const std::int32_t* f = faces_at.begin(vertex); f != faces_at.end(vertex); ++f) {
+    const Face& face = faces[index(*f)];
+    const std::size_t sides = face.corners.size();
+    for (std::size_t k = 0; k < sides; ++k) {
+      if (index(face.corners[k]) != vertex) continue;
+      edges.emplace_back(face.corners[(k + 1) % sides], face.inner, face.outer);
+      edges.emplace_back(face.corners[(k + sides - 1) % sides], face.inner, face.outer);
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -112,20 +114,22 @@ class GrainMatrix {
   std::vector<std::vector<std::pair<std::int32_t, double>>> rows_;
 };
 
-Groups corners_at(const std::vector<WallTriangle>& triangles, std::size_t points) {
-  return counting_sort(triangles.size(), points, [&](std::size_t t, const auto& visit) {
-    for (const std::int32_t corner : triangles[t].corners) visit(index(corner));
+/// Returns the faces at each vertex.
+template <class Face>
+Groups faces_at_each(const std::vector<Face>& faces, std::size_t vertices) {
+  return counting_sort(faces.size(), vertices, [&](std::size_t f, const auto& visit) {
+    for (const std::int32_t corner : faces[f].corners) visit(index(corner));
   });
 }
 
 }  // namespace
 
-std::vector<double> wall_volumes(const std::vector<Vector3>& points,
-                                 const std::vector<WallTriangle>& triangles, std::size_t grains) {
+std::vector<double> wall_volumes(const WallComplex& walls, std::size_t grains) {
+  const std::vector<Vector3>& points = walls.points;
   // About a vertex of each grain, because cones from a distant point lose digits.
   std::vector<std::int32_t> origin(grains, -1);
   std::vector<double> sums(grains, 0.0);
-  for (const WallTriangle& t : triangles) {
+  for (const WallTriangle& t : walls.triangles) {
     for (const std::int32_t grain : {t.inner, t.outer}) {
       if (grain < 0) continue;
       if (origin[index(grain)] < 0) origin[index(grain)] = t.corners[0];
@@ -140,15 +144,16 @@ std::vector<double> wall_volumes(const std::vector<Vector3>& points,
   return sums;
 }
 
-double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
-                       const std::vector<double>& volumes, const std::vector<double>& shares) {
-  const Groups at = corners_at(triangles, points.size());
+double restore_volumes(WallComplex& walls, const std::vector<double>& volumes,
+                       const std::vector<double>& shares) {
+  std::vector<Vector3>& points = walls.points;
+  const Groups at = faces_at_each(walls.triangles, points.size());
   std::vector<VolumeGradient> list;
   const auto gradients_at = [&](std::size_t v) {
     list.clear();
     double area = 0.0;
     for (const std::int32_t* k = at.begin(v); k != at.end(v); ++k) {
-      const WallTriangle& t = triangles[index(*k)];
+      const WallTriangle& t = walls.triangles[index(*k)];
       const Vector3 normal = doubled_area_normal(
           points[index(t.corners[0])], points[index(t.corners[1])], points[index(t.corners[2])]);
       area += normal.norm() / 6.0;
@@ -159,7 +164,7 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
   };
   double worst = 0.0;
   for (int step = 0; step < 20; ++step) {
-    const std::vector<double> now = wall_volumes(points, triangles, volumes.size());
+    const std::vector<double> now = wall_volumes(walls, volumes.size());
     std::vector<double> missing(volumes.size(), 0.0);
     worst = 0.0;
     for (std::size_t g = 0; g < volumes.size(); ++g) {
@@ -196,56 +201,62 @@ double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTrian
   return worst;
 }
 
+DenseWalls::DenseWalls(WallComplex walls) : walls_(std::move(walls)) {
+  find_places(walls_.triangles, faces_at_each(walls_.triangles, walls_.points.size()));
+  find_normals();
+}
+
 DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
                        const Execution& execution) {
   {
-    const Groups quads_at = counting_sort(
-        walls.quads.size(), walls.corners.size(), [&](std::size_t q, const auto& visit) {
-          for (const std::int32_t corner : walls.quads[q].corners) {
-            visit(index(corner));
-          }
-        });
+    const Groups quads_at = faces_at_each(walls.quads, walls.corners.size());
     find_places(walls.quads, quads_at);
     smooth(walls, quads_at, passes, execution);
   }
-  for (Vector3& point : points_) point = geometry.point(point);
+  std::vector<Vector3>& points = walls_.points;
+  for (Vector3& point : points) point = geometry.point(point);
   const bool is_left_handed = geometry.axes.determinant() < 0.0;  // faces are inside out
-  triangles_.reserve(2 * walls.quads.size());
+  walls_.triangles.reserve(2 * walls.quads.size());
   for (const WallQuad& quad : walls.quads) {
     std::array<std::int32_t, 4> c = quad.corners;
     if (is_left_handed) std::reverse(c.begin(), c.end());
     const auto length = [&](std::size_t a, std::size_t b) {
-      return (points_[index(c[a])] - points_[index(c[b])]).squaredNorm();
+      return (points[index(c[a])] - points[index(c[b])]).squaredNorm();
     };
     if (length(0, 2) > length(1, 3)) std::rotate(c.begin(), c.begin() + 1, c.end());
-    triangles_.push_back({{c[0], c[1], c[2]}, quad.inner, quad.outer});
-    triangles_.push_back({{c[0], c[2], c[3]}, quad.inner, quad.outer});
+    walls_.triangles.push_back({{c[0], c[1], c[2]}, quad.inner, quad.outer});
+    walls_.triangles.push_back({{c[0], c[2], c[3]}, quad.inner, quad.outer});
   }
-  walls = {};
-  triangles_at_ = corners_at(triangles_, points_.size());
-  normals_.resize(points_.size());
-  for (std::size_t v = 0; v < points_.size(); ++v) {
+  find_normals();
+}
+
+void DenseWalls::find_normals() {
+  const std::vector<Vector3>& points = walls_.points;
+  triangles_at_ = faces_at_each(walls_.triangles, points.size());
+  normals_.resize(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
     Vector3 sum = Vector3::Zero();
     for (const std::int32_t* t = triangles_at_.begin(v); t != triangles_at_.end(v); ++t) {
-      const auto& [a, b, c] = triangles_[index(*t)].corners;
-      sum += doubled_area_normal(points_[index(a)], points_[index(b)], points_[index(c)]);
+      const auto& [a, b, c] = walls_.triangles[index(*t)].corners;
+      sum += doubled_area_normal(points[index(a)], points[index(b)], points[index(c)]);
     }
     normals_[v] = sum.normalized().cast<float>();
   }
 }
 
-void DenseWalls::find_places(const std::vector<WallQuad>& quads, const Groups& quads_at) {
-  const std::size_t count = quads_at.starts.size() - 1;
+template <class Face>
+void DenseWalls::find_places(const std::vector<Face>& faces, const Groups& faces_at) {
+  const std::size_t count = faces_at.starts.size() - 1;
   places_.assign(count, WallPlace::Wall);
   line_of_.assign(count, -1);
   for (std::size_t v = 0; v < count; ++v) {
     // Most vertices have faces of one wall only.
-    const WallQuad& first = quads[index(*quads_at.begin(v))];
-    const bool is_within = std::all_of(quads_at.begin(v), quads_at.end(v), [&](std::int32_t q) {
-      return quads[index(q)].inner == first.inner && quads[index(q)].outer == first.outer;
+    const Face& first = faces[index(*faces_at.begin(v))];
+    const bool is_within = std::all_of(faces_at.begin(v), faces_at.end(v), [&](std::int32_t f) {
+      return faces[index(f)].inner == first.inner && faces[index(f)].outer == first.outer;
     });
     if (is_within) continue;
-    std::vector<std::int32_t> ends = line_ends(quads, quads_at, v);
+    std::vector<std::int32_t> ends = line_ends(faces, faces_at, v);
     if (ends.empty()) continue;
     places_[v] = ends.size() == 2 ? WallPlace::Line : WallPlace::Point;
     line_of_[v] = static_cast<std::int32_t>(line_neighbours_.size());
@@ -276,7 +287,7 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
   std::vector<Vector3> corners;
   corners.reserve(walls.corners.size());
   for (const VoxelCounts& c : walls.corners) corners.emplace_back(c[0], c[1], c[2]);
-  points_ = corners;
+  walls_.points = corners;
   std::vector<Vector3> moved(corners.size());
   std::vector<bool> is_short(corners.size());
   for (std::size_t v = 0; v < corners.size(); ++v) is_short[v] = is_on_short_loop(v);
@@ -284,7 +295,7 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
     Vector3 sum = Vector3::Zero();
     if (line_of_[v] >= 0) {
       const std::vector<std::int32_t>& ends = line_neighbours_[index(line_of_[v])];
-      for (const std::int32_t end : ends) sum += points_[index(end)];
+      for (const std::int32_t end : ends) sum += walls_.points[index(end)];
       return Vector3(sum / static_cast<double>(ends.size()));
     }
     int count = 0;
@@ -292,7 +303,7 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
       const auto& c = walls.quads[index(*q)].corners;
       const auto k = static_cast<std::size_t>(
           std::find(c.begin(), c.end(), static_cast<std::int32_t>(v)) - c.begin());
-      sum += points_[index(c[(k + 1) % 4])] + points_[index(c[(k + 3) % 4])];
+      sum += walls_.points[index(c[(k + 1) % 4])] + walls_.points[index(c[(k + 3) % 4])];
       count += 2;
     }
     return Vector3(sum / count);
@@ -306,11 +317,12 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
               // A line has larger steps: it jumps where the steps of its walls meet. The line about
               // a wall of few faces would shrink to a point.
               const double most = places_[v] != WallPlace::Line ? 0.5 : is_short[v] ? 0.2 : 0.75;
-              const Vector3 to = points_[v] + factor * (mean_at(v) - points_[v]) - corners[v];
+              const Vector3 to =
+                  walls_.points[v] + factor * (mean_at(v) - walls_.points[v]) - corners[v];
               moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
             }
           });
-      points_.swap(moved);
+      walls_.points.swap(moved);
     }
   }
 }
@@ -320,28 +332,28 @@ WallPoint DenseWalls::nearest_on_wall(std::int32_t from, const Vector3& target, 
   const auto visit_corners = [&](std::int32_t vertex, const auto& visit) {
     for (const std::int32_t* t = triangles_at_.begin(index(vertex));
          t != triangles_at_.end(index(vertex)); ++t) {
-      const WallTriangle& triangle = triangles_[index(*t)];
+      const WallTriangle& triangle = walls_.triangles[index(*t)];
       if (triangle.inner == inner && triangle.outer == outer) visit(triangle.corners);
     }
   };
   std::int32_t best = from;
-  double distance = (points_[index(from)] - target).squaredNorm();
+  double distance = (walls_.points[index(from)] - target).squaredNorm();
   for (std::int32_t at = -1; at != best;) {
     at = best;
     visit_corners(at, [&](const Triangle& corners) {
       for (const std::int32_t corner : corners) {
-        const double d = (points_[index(corner)] - target).squaredNorm();
+        const double d = (walls_.points[index(corner)] - target).squaredNorm();
         if (d >= distance) continue;
         distance = d;
         best = corner;
       }
     });
   }
-  WallPoint result{points_[index(best)], best};
+  WallPoint result{walls_.points[index(best)], best};
   visit_corners(best, [&](const Triangle& c) {
-    const Vector3& p = points_[index(c[0])];
-    const Vector3& q = points_[index(c[1])];
-    const Vector3& r = points_[index(c[2])];
+    const Vector3& p = walls_.points[index(c[0])];
+    const Vector3& q = walls_.points[index(c[1])];
+    const Vector3& r = walls_.points[index(c[2])];
     const Vector3 w = nearest_weights(p, q, r, target);
     const Vector3 near = w[0] * p + w[1] * q + w[2] * r;
     const double d = (near - target).squaredNorm();
@@ -354,23 +366,24 @@ WallPoint DenseWalls::nearest_on_wall(std::int32_t from, const Vector3& target, 
 
 WallPoint DenseWalls::nearest_on_line(std::int32_t from, const Vector3& target) const {
   std::int32_t best = from;
-  double distance = (points_[index(from)] - target).squaredNorm();
+  double distance = (walls_.points[index(from)] - target).squaredNorm();
   for (std::int32_t at = -1; at != best;) {
     at = best;
     for (const std::int32_t end : line_neighbours_[index(line_of_[index(at)])]) {
-      const double d = (points_[index(end)] - target).squaredNorm();
+      const double d = (walls_.points[index(end)] - target).squaredNorm();
       if (d >= distance || places_[index(end)] != WallPlace::Line) continue;
       distance = d;
       best = end;
     }
   }
-  WallPoint result{points_[index(best)], best};
+  WallPoint result{walls_.points[index(best)], best};
   for (const std::int32_t end : line_neighbours_[index(line_of_[index(best)])]) {
-    const Vector3 along = points_[index(end)] - points_[index(best)];
+    const Vector3 along = walls_.points[index(end)] - walls_.points[index(best)];
     const double square = along.squaredNorm();
     if (!(square > 0.0)) continue;
-    const double share = std::clamp(along.dot(target - points_[index(best)]) / square, 0.0, 1.0);
-    const Vector3 near = points_[index(best)] + share * along;
+    const double share =
+        std::clamp(along.dot(target - walls_.points[index(best)]) / square, 0.0, 1.0);
+    const Vector3 near = walls_.points[index(best)] + share * along;
     const double d = (near - target).squaredNorm();
     if (!(d < distance)) continue;
     distance = d;

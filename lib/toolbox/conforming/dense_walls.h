@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "toolbox/conforming/voxel_walls.h"
-#include "toolbox/conforming/wall_triangle.h"
+#include "toolbox/fragment/common_walls.h"
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
@@ -26,16 +26,17 @@ struct WallPoint {
   std::int32_t vertex = -1;  ///< near it
 };
 
-/// The smoothed walls of voxels. New nodes are placed on them.
+/// Walls of small triangles. New nodes are placed on them.
 class DenseWalls {
  public:
+  explicit DenseWalls(WallComplex walls);
+
   /// Smooths the faces of voxels as smoothed_surface does, each kind of place for itself: walls
   /// within their surface, lines along themselves.
   DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
              const Execution& execution);
 
-  const std::vector<Vector3>& points() const { return points_; }
-  const std::vector<WallTriangle>& triangles() const { return triangles_; }
+  const WallComplex& walls() const { return walls_; }
   const std::vector<WallPlace>& places() const { return places_; }
   /// Of the vertices within walls, towards `outer`; length 1.
   const std::vector<Eigen::Vector3f>& normals() const { return normals_; }
@@ -49,13 +50,14 @@ class DenseWalls {
   WallPoint nearest_on_line(std::int32_t from, const Vector3& target) const;
 
  private:
-  void find_places(const std::vector<WallQuad>& quads, const Groups& quads_at);
+  template <class Face>
+  void find_places(const std::vector<Face>& faces, const Groups& faces_at);
+  void find_normals();
   bool is_on_short_loop(std::size_t v) const;
   void smooth(const VoxelWalls& walls, const Groups& quads_at, int passes,
               const Execution& execution);
 
-  std::vector<Vector3> points_;
-  std::vector<WallTriangle> triangles_;
+  WallComplex walls_;
   Groups triangles_at_;  ///< each vertex
   std::vector<WallPlace> places_;
   std::vector<Eigen::Vector3f> normals_;
@@ -66,11 +68,10 @@ class DenseWalls {
 /// Moves vertices so that every grain has its volume: along the walls' normals, all vertices of a
 /// grain's side by the same length times the vertex' share, above 0 (least squares, weighted by
 /// area). Returns the largest difference that is left, relative.
-double restore_volumes(std::vector<Vector3>& points, const std::vector<WallTriangle>& triangles,
-                       const std::vector<double>& volumes, const std::vector<double>& shares);
+double restore_volumes(WallComplex& walls, const std::vector<double>& volumes,
+                       const std::vector<double>& shares);
 
 /// Returns the volume of each grain.
-std::vector<double> wall_volumes(const std::vector<Vector3>& points,
-                                 const std::vector<WallTriangle>& triangles, std::size_t grains);
+std::vector<double> wall_volumes(const WallComplex& walls, std::size_t grains);
 
 }  // namespace wscvt

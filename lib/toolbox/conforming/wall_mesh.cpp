@@ -29,7 +29,7 @@ double evenness(const Vector3& a, const Vector3& b, const Vector3& c) {
 }  // namespace
 
 WallMesh::WallMesh(const DenseWalls& dense)
-    : points(dense.points()), triangles(dense.triangles()), places(dense.places()), dense_(dense) {
+    : WallComplex(dense.walls()), places(dense.places()), dense_(dense) {
   anchors.resize(points.size());
   for (std::size_t v = 0; v < anchors.size(); ++v) anchors[v] = static_cast<std::int32_t>(v);
   link();
@@ -129,6 +129,30 @@ bool WallMesh::keeps_links(std::int32_t gone, std::int32_t kept,
   return keeps;
 }
 
+bool WallMesh::keeps_bodies(std::int32_t gone, std::int32_t kept,
+                            const EdgeTriangles& at_edge) const {
+  WallVertices at_gone;
+  WallVertices at_both;
+  const auto add = [](WallVertices& list, std::int32_t body) {
+    if (!has(list, body)) list.push_back(body);
+  };
+  for (const std::size_t t : at_edge) {
+    add(at_both, triangles[t].inner);
+    add(at_both, triangles[t].outer);
+  }
+  visit_triangles(gone, [&](std::size_t t) {
+    add(at_gone, triangles[t].inner);
+    add(at_gone, triangles[t].outer);
+  });
+  bool keeps = true;
+  visit_triangles(kept, [&](std::size_t t) {
+    for (const std::int32_t body : {triangles[t].inner, triangles[t].outer}) {
+      if (has(at_gone, body) && !has(at_both, body)) keeps = false;
+    }
+  });
+  return keeps;
+}
+
 double WallMesh::agreement(const Triangle& corners, const Vector3& normal) const {
   constexpr double unknown = 2.0;
   double least = unknown;
@@ -142,15 +166,13 @@ double WallMesh::agreement(const Triangle& corners, const Vector3& normal) const
 }
 
 bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::array<Vector3, 3>& x,
-                          double turn) const {
+                          double turn, double least) const {
   constexpr double least_agreement = 0.3;
   const Triangle& now = triangles[t].corners;
-  const Vector3 before =
-      doubled_area_normal(points[index(now[0])], points[index(now[1])], points[index(now[2])]);
+  const Vector3 before = normal_of(t);
   const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
   const double shape = evenness(x[0], x[1], x[2]);
-  constexpr double least_evenness = 0.33;
-  if (shape < least_evenness &&
+  if (shape < least &&
       shape < evenness(points[index(now[0])], points[index(now[1])], points[index(now[2])])) {
     return false;
   }
@@ -159,8 +181,20 @@ bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::arr
   return cosine > least_agreement || cosine > agreement(now, before);
 }
 
+Vector3 WallMesh::normal_of(std::size_t t) const {
+  const Triangle& c = triangles[t].corners;
+  return doubled_area_normal(points[index(c[0])], points[index(c[1])], points[index(c[2])]);
+}
+
+bool WallMesh::is_sliver(std::size_t t) const {
+  if (!drops_walls) return false;
+  constexpr double flat = 1e-3;  // then the height is as small against the edges
+  const Triangle& c = triangles[t].corners;
+  return evenness(points[index(c[0])], points[index(c[1])], points[index(c[2])]) < flat;
+}
+
 bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
-                           const Vector3& position, double longest) const {
+                           const Vector3& position, double longest, double least) const {
   constexpr double least_cosine = 0.5;
   bool keeps = true;
   visit_triangles(moved, [&](std::size_t t) {
@@ -169,11 +203,19 @@ bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t 
     const Triangle& c = triangles[t].corners;
     const Vector3& a = points[index(c[following(k)])];
     const Vector3& b = points[index(c[preceding(k)])];
-    const Vector3& p = points[index(moved)];
     const double limit = longest * longest;
     if (std::max((a - position).squaredNorm(), (b - position).squaredNorm()) > limit) keeps = false;
-    const Vector3 before = doubled_area_normal(p, a, b);
     const Vector3 after = doubled_area_normal(position, a, b);
+    if (is_sliver(t)) {
+      // Its own normal is rounding, that of its wall there is not.
+      Vector3 about = Vector3::Zero();
+      visit_triangles(moved, [&](std::size_t near) {
+        if (same_wall(triangles[near], triangles[t])) about += normal_of(near);
+      });
+      if (after.dot(about) < 0.0) keeps = false;
+      return;
+    }
+    const Vector3 before = normal_of(t);
     if (!(after.dot(before) > least_cosine * after.norm() * before.norm())) keeps = false;
     Triangle corners = c;
     corners[k] = into;
@@ -181,28 +223,40 @@ bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t 
     x[k] = position;
     x[following(k)] = a;
     x[preceding(k)] = b;
-    if (!may_become(t, corners, x, least_cosine)) keeps = false;
+    if (!may_become(t, corners, x, least_cosine, least)) keeps = false;
   });
   return keeps;
 }
 
-bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& position,
-                        double longest) {
+bool WallMesh::keeps_lines(std::int32_t gone, std::int32_t kept,
+                           const EdgeTriangles& at_edge) const {
   const WallPlace place = places[index(gone)];
-  if (place == WallPlace::Point || place > places[index(kept)]) return false;
-  const EdgeTriangles at_edge = triangles_at(gone, kept);
-  if (place == WallPlace::Line) {
-    if (!is_line(at_edge)) return false;
-    for (const std::int32_t end : line_neighbours(gone)) {
-      if (end != kept && is_line(triangles_at(end, kept)) && !triangles_at(end, kept).empty()) {
-        return false;
-      }
-    }
+  if (place == WallPlace::Wall) return true;
+  const bool is_on_line = is_line(at_edge);
+  if (!is_on_line && !drops_walls) return false;
+  if (!keeps_bodies(gone, kept, at_edge)) return false;
+  // Two lines become one where the triangle between them was all that was left of a wall.
+  for (const std::int32_t end : line_neighbours(gone)) {
+    if (end == kept) continue;
+    const EdgeTriangles across = triangles_at(end, kept);
+    if (across.empty() || !is_line(across)) continue;
+    if (!drops_walls || places[index(end)] != WallPlace::Point) return false;
   }
-  if (!keeps_links(gone, kept, at_edge) || !keeps_shape(gone, kept, kept, position, longest)) {
+  return true;
+}
+
+bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& position,
+                        double longest, double evenness) {
+  if (places[index(gone)] > places[index(kept)]) return false;
+  const EdgeTriangles at_edge = triangles_at(gone, kept);
+  if (!keeps_lines(gone, kept, at_edge)) return false;
+  const bool is_point = places[index(gone)] != WallPlace::Wall && !is_line(at_edge);
+  if (!keeps_links(gone, kept, at_edge) ||
+      !keeps_shape(gone, kept, kept, position, longest, evenness)) {
     return false;
   }
-  if (position != points[index(kept)] && !keeps_shape(kept, gone, kept, position, longest))
+  if (position != points[index(kept)] &&
+      !keeps_shape(kept, gone, kept, position, longest, evenness))
     return false;
   for (const std::size_t t : at_edge) kill(t);
   while (first_[index(gone)] >= 0) {
@@ -212,6 +266,7 @@ bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& pos
     enter(c / 3, c % 3);
   }
   points[index(kept)] = position;
+  if (is_point) places[index(kept)] = WallPlace::Point;
   return true;
 }
 
@@ -240,6 +295,16 @@ std::int32_t WallMesh::split(std::int32_t a, std::int32_t b) {
     for (std::size_t c = 0; c < 3; ++c) enter(added, c);
   }
   return middle;
+}
+
+bool WallMesh::is_flat(std::int32_t a, std::int32_t b) const {
+  const EdgeTriangles at_edge = triangles_at(a, b);
+  if (is_line(at_edge)) return false;
+  const Vector3 first = normal_of(at_edge[0]);
+  const Vector3 second = normal_of(at_edge[1]);
+  constexpr double rounding = 1e-9;  // of a sine; wide against that of cut points
+  return is_sliver(at_edge[0]) || is_sliver(at_edge[1]) ||
+         first.cross(second).norm() <= rounding * first.norm() * second.norm();
 }
 
 bool WallMesh::flip(std::int32_t a, std::int32_t b) {

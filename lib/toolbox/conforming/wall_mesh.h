@@ -19,7 +19,7 @@ using WallVertices = FewOf<std::int32_t>;
 
 /// The walls as triangles that can be changed. Every change keeps what touches what: each grain
 /// stays a closed manifold, and walls keep their lines and points.
-class WallMesh {
+class WallMesh : public WallComplex {  // dead triangles have the corner -1
  public:
   /// `dense` must outlive it.
   explicit WallMesh(const DenseWalls& dense);
@@ -43,9 +43,10 @@ class WallMesh {
   bool is_line(const EdgeTriangles& at_edge) const;
 
   /// Joins `gone` with `kept` at a position, if nothing but the triangles at their edge vanishes,
-  /// no triangle turns over or becomes a sliver, and no edge becomes too long. Returns whether it
-  /// did.
-  bool collapse(std::int32_t gone, std::int32_t kept, const Vector3& position, double longest);
+  /// no triangle turns over or becomes a sliver (its evenness gets worse and is below `evenness`; 0
+  /// flat, 1 even edges), and no edge becomes too long. Returns whether it did.
+  bool collapse(std::int32_t gone, std::int32_t kept, const Vector3& position, double longest,
+                double evenness);
 
   /// Adds a node in the middle of an edge.
   std::int32_t split(std::int32_t a, std::int32_t b);
@@ -54,19 +55,23 @@ class WallMesh {
   /// and the surface does not bend more. Returns whether it did.
   bool flip(std::int32_t a, std::int32_t b);
 
+  /// Whether the two triangles of an edge within a wall are in one plane, or one has no area.
+  bool is_flat(std::int32_t a, std::int32_t b) const;
+
   /// Returns whether a triangle may become one with the corners at `x`: its normal agrees with the
   /// dense walls at the corners within its wall, or does not agree less than now. Without such
-  /// corners it may turn by an angle of the cosine `turn`.
+  /// corners it may turn by an angle of the cosine `turn`. `least`: see collapse.
   bool may_become(std::size_t t, const Triangle& corners, const std::array<Vector3, 3>& x,
-                  double turn) const;
+                  double turn, double least) const;
 
   /// Removes dead triangles and vertices without triangles.
   void compact();
 
-  std::vector<Vector3> points;
-  std::vector<WallTriangle> triangles;  ///< dead ones have the corner -1
-  std::vector<WallPlace> places;        ///< of the vertices
-  std::vector<std::int32_t> anchors;    ///< a vertex of the dense walls near each vertex
+  /// Whether collapses may join points, and lines with a narrow wall between them. Bodies stay
+  /// closed manifolds.
+  bool drops_walls = false;
+  std::vector<WallPlace> places;      ///< of the vertices
+  std::vector<std::int32_t> anchors;  ///< a vertex of the dense walls near each vertex
 
  private:
   void link();
@@ -74,9 +79,13 @@ class WallMesh {
   void remove(std::size_t t, std::size_t k);
   void kill(std::size_t t);
   std::size_t corner(std::size_t t, std::int32_t v) const;
+  Vector3 normal_of(std::size_t t) const;  ///< its length is twice the area
+  bool is_sliver(std::size_t t) const;     ///< left by a cut; there are none among voxels
+  bool keeps_lines(std::int32_t gone, std::int32_t kept, const EdgeTriangles& at_edge) const;
+  bool keeps_bodies(std::int32_t gone, std::int32_t kept, const EdgeTriangles& at_edge) const;
   bool keeps_links(std::int32_t gone, std::int32_t kept, const EdgeTriangles& at_edge) const;
   bool keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
-                   const Vector3& position, double longest) const;
+                   const Vector3& position, double longest, double least) const;
 
   double agreement(const Triangle& corners, const Vector3& normal) const;
 

@@ -15,12 +15,19 @@ namespace {
 constexpr double longest_share = 4.0 / 3.0;
 constexpr double shortest_share = 4.0 / 5.0;
 
+// Of the wanted length: walls that are narrower and lines that are shorter leave flat tetrahedra.
+constexpr double narrow_share = 0.4;
+
+// Triangles do not become flatter, see WallMesh::collapse.
+constexpr double least_evenness = 0.33;
+
 constexpr std::size_t relaxation_block = 2048;  ///< vertices
+constexpr double unlimited = 1e300;
 
 }  // namespace
 
 WallRemesher::WallRemesher(const DenseWalls& dense, std::vector<double> edges)
-    : dense_(dense), edges_(std::move(edges)), mesh_(dense) {}
+    : dense_(dense), edges_(std::move(edges)), first_edges_(edges_), mesh_(dense) {}
 
 double WallRemesher::edge_of(const WallTriangle& t) const {
   const double inner = edges_[index(t.inner)];
@@ -47,14 +54,27 @@ void WallRemesher::collapse_short(double most) {
       const double square = (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm();
       if (square > most * most) continue;
       const double length = wanted(a, b);
-      const double limit = std::min(most, shortest_share * length);
+      double limit = std::min(most, shortest_share * length);
+      if (mesh_.places[index(a)] != WallPlace::Wall && mesh_.places[index(b)] != WallPlace::Wall) {
+        const bool are_points = mesh_.places[index(a)] == WallPlace::Point &&
+                                mesh_.places[index(b)] == WallPlace::Point;
+        if (are_points || !mesh_.is_line(mesh_.triangles_at(a, b))) {
+          limit = std::min(limit, narrow_share * length);
+        }
+      }
       if (square > limit * limit) continue;
       if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
       const bool is_between = mesh_.places[index(a)] == mesh_.places[index(b)];
       const Vector3 position =
           is_between ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
                      : mesh_.points[index(b)];
-      if (mesh_.collapse(a, b, position, longest_share * std::min(length, 2.0 * most))) k = 3;
+      // The shorter the edge, the flatter are its own triangles, and the flatter may others become.
+      // Sheets beside thin gaps of voxels would intersect then.
+      const double evenness =
+          mesh_.drops_walls ? std::min(least_evenness, std::sqrt(square) / length) : least_evenness;
+      if (mesh_.collapse(a, b, position, longest_share * std::min(length, 2.0 * most), evenness)) {
+        k = 3;
+      }
     }
   }
 }
@@ -162,7 +182,7 @@ void WallRemesher::relax(int times, const Execution& execution) {
         for (std::size_t c = 0; c < 3; ++c) {
           if (index(mesh_.triangles[t].corners[c]) == k) x[c] = moved[k].point;
         }
-        if (!mesh_.may_become(t, mesh_.triangles[t].corners, x, 0.3)) turns = true;
+        if (!mesh_.may_become(t, mesh_.triangles[t].corners, x, 0.3, least_evenness)) turns = true;
       });
       if (turns) continue;
       mesh_.points[k] = moved[k].point;
@@ -188,7 +208,6 @@ double WallRemesher::mean_ratio() const {
 }
 
 void WallRemesher::improve(int rounds, const Execution& execution) {
-  const double unlimited = 1e300;
   for (int round = 0; round < rounds; ++round) {
     split_long();
     collapse_short(unlimited);
@@ -197,7 +216,37 @@ void WallRemesher::improve(int rounds, const Execution& execution) {
   }
 }
 
-void WallRemesher::find_edges(int nodes, double least) {
+void WallRemesher::flip_flat() {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
+      const std::int32_t a = mesh_.triangles[t].corners[k];
+      const std::int32_t b = mesh_.triangles[t].corners[following(k)];
+      if (mesh_.is_flat(a, b) && mesh_.flip(a, b)) break;
+    }
+  }
+}
+
+void WallRemesher::refine(const Execution& execution) {
+  mesh_.drops_walls = true;
+  // Cuts leave triangles that are flat and long. Their edges are halved with turns between, because
+  // the parts of a long triangle are long as well.
+  for (factor_ = 32.0; factor_ >= 1.0; factor_ *= 0.5) {
+    split_long();
+    flip_flat();
+    flip_flat();
+  }
+  factor_ = 1.0;
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    execution.report(static_cast<double>(round) / rounds, "Finding the walls");
+    collapse_short(unlimited);
+    mesh_.compact();
+    split_long();
+    flip_flat();
+  }
+}
+
+void WallRemesher::find_edges(int nodes, const std::vector<double>& least) {
   // A closed triangle mesh without handles has half as many nodes as triangles, and two.
   std::vector<double> counts(edges_.size(), 2.0);
   for (const WallTriangle& t : mesh_.triangles) {
@@ -205,20 +254,19 @@ void WallRemesher::find_edges(int nodes, double least) {
     counts[index(t.inner)] += 0.5;
     if (t.outer >= 0) counts[index(t.outer)] += 0.5;
   }
+  // Lines and points have no choice, and edges that follow them would run away.
+  constexpr double most = 1.5;
   for (std::size_t g = 0; g < edges_.size(); ++g) {
-    edges_[g] = std::max(least, edges_[g] * std::sqrt(counts[g] / nodes));
+    const double wanted = edges_[g] * std::sqrt(counts[g] / nodes);
+    edges_[g] =
+        std::max(least[g], std::clamp(wanted, first_edges_[g] / most, first_edges_[g] * most));
   }
 }
 
-void WallRemesher::run(double voxel, int nodes, const Execution& execution) {
-  if (nodes > 0) {
-    // The dense triangles have a mean area of half a voxel's face, and edges of about a voxel.
-    std::fill(edges_.begin(), edges_.end(), voxel);
-    find_edges(nodes, voxel);
-  }
+void WallRemesher::run(const std::vector<double>& least, int nodes, const Execution& execution) {
   const double longest = *std::max_element(edges_.begin(), edges_.end());
   int level = 0;
-  for (double most = voxel; most < longest; most *= 1.6) {
+  for (double most = *std::min_element(least.begin(), least.end()); most < longest; most *= 1.6) {
     execution.report(0.3 * level / (level + 3.0), "Coarsening the walls");
     ++level;
     collapse_short(most);
@@ -232,7 +280,7 @@ void WallRemesher::run(double voxel, int nodes, const Execution& execution) {
     execution.report(0.3 + 0.6 * round / rounds, "Remeshing the walls");
     improve(2, execution);
     if (nodes > 0) {
-      find_edges(nodes, voxel);
+      find_edges(nodes, least);
     } else {
       factor_ = std::clamp(factor_ / mean_ratio(), 0.5, 2.0);
     }

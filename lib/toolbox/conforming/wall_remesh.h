@@ -18,9 +18,12 @@ class WallRemesher {
   /// mean of both.
   WallRemesher(const DenseWalls& dense, std::vector<double> edges);
 
-  /// Remeshes all walls from the dense ones. `voxel`: its edge; length.
-  /// `nodes`: wanted of each grain; 0: the edge lengths decide.
-  void run(double voxel, int nodes, const Execution& execution);
+  /// Divides long edges and joins the ends of short ones, for dense walls of even triangles.
+  void refine(const Execution& execution);
+
+  /// Remeshes all walls from the dense ones. `least`: shortest edge length of each grain, about
+  /// that of its dense walls. `nodes`: wanted of each grain; 0: the edge lengths decide.
+  void run(const std::vector<double>& least, int nodes, const Execution& execution);
 
   WallMesh& mesh() { return mesh_; }
 
@@ -33,14 +36,16 @@ class WallRemesher {
   void collapse_short(double most);
   void split_long();
   void flip_all();
+  void flip_flat();
   void relax(int times, const Execution& execution);
   Vector3 relaxed(std::int32_t v) const;
   WallPoint placed(std::int32_t v, const Vector3& target) const;
-  void find_edges(int nodes, double least);
+  void find_edges(int nodes, const std::vector<double>& least);
   void improve(int rounds, const Execution& execution);
 
   const DenseWalls& dense_;
   std::vector<double> edges_;
+  std::vector<double> first_edges_;
   double factor_ = 1.0;  ///< of all edge lengths, so that their mean is right
   WallMesh mesh_;
 };

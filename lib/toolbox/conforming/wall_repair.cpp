@@ -97,18 +97,18 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
 
 }  // namespace
 
-FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
+FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double dense_edge,
                            const Execution& execution) {
   constexpr int most_partings = 10;
   constexpr int most_restorations = 5;
-  constexpr double step = 0.1;  // of a voxel; wide against rounding, small against a gap
+  constexpr double step = 0.1;  // of a dense edge; wide against rounding, small against a gap
   WallPairs walls(mesh);
   std::vector<char> is_near(mesh.points.size(), 0);
   std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
     for (const std::int32_t v : walls.vertices_of(pairs)) is_near[index(v)] = 1;
-    part_pairs(mesh, pairs, step * voxel);
+    part_pairs(mesh, pairs, step * dense_edge);
     pairs = walls.near(mesh.points, is_near, execution);
   }
   const std::vector<Vector3> parted = mesh.points;
@@ -117,7 +117,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   for (int k = 0; k < most_restorations; ++k) {
     execution.report(0.2 + 0.15 * k, "Restoring the volumes");
     mesh.points = parted;
-    result.volume_error = restore_volumes(mesh.points, mesh.triangles, volumes, shares);
+    result.volume_error = restore_volumes(mesh, volumes, shares);
     // After the first time only moves about pairs change much.
     if (k > 0) result.pairs = walls.near(mesh.points, is_near, execution);
     if (k == 0 || result.pairs.empty()) result.pairs = walls.all(mesh.points, execution);

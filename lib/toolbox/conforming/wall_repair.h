@@ -18,8 +18,9 @@ struct FinishedWalls {
 
 /// Parts intersecting triangles and gives every grain its volume. Sheets of free surface move away
 /// from each other, other nodes to the middle of their neighbours. Then the volumes are restored,
-/// with smaller moves of the nodes that would make triangles intersect. `voxel`: its edge; length.
-FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double voxel,
+/// with smaller moves of the nodes that would make triangles intersect. `dense_edge`: of
+/// the dense walls, such as a voxel's; length.
+FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double dense_edge,
                            const Execution& execution);
 
 }  // namespace wscvt

@@ -49,7 +49,7 @@ void append(std::vector<std::string>& fields, const Vector3& v) {
 
 std::string fragments_csv(const Fragments& fragments, const std::vector<std::string>& files) {
   std::vector<int> contacts(fragments.list.size(), 0);
-  for (const FragmentContact& contact : fragments.contacts) {
+  for (const CommonWall& contact : fragments.contacts) {
     ++contacts[contact.first];
     ++contacts[contact.second];
   }
@@ -76,7 +76,7 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
 
 std::string fragment_contacts_csv(const Fragments& fragments) {
   std::string text = csv_record({"first", "second", "area", "x", "y", "z", "nx", "ny", "nz"});
-  for (const FragmentContact& contact : fragments.contacts) {
+  for (const CommonWall& contact : fragments.contacts) {
     std::vector<std::string> fields = {std::to_string(contact.first + 1),
                                        std::to_string(contact.second + 1),
                                        format_exact(contact.area)};

@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <string>
 #include <unordered_set>
@@ -15,6 +14,7 @@
 #include "toolbox/fragment/face_triangles.h"
 #include "toolbox/fragment/fragment_sites.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -99,25 +99,6 @@ CellComplex cut_grain(const IndexedMesh& grain, double volume, std::vector<CellS
   return complex;
 }
 
-/// Collects the triangles of a fragment, with its own numbers of the points.
-class FragmentMesh {
- public:
-  void add(const std::vector<Vector3>& points, const Triangle& triangle) {
-    Triangle own{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [found, is_new] =
-          numbers_.try_emplace(triangle[k], static_cast<std::int32_t>(mesh.points.size()));
-      if (is_new) mesh.points.push_back(points[triangle[k]]);
-      own[k] = found->second;
-    }
-    mesh.triangles.push_back(own);
-  }
-  IndexedMesh mesh;
-
- private:
-  std::map<std::int32_t, std::int32_t> numbers_;
-};
-
 void measure(Fragment& fragment) {
   const ShapeDescriptors shape = describe_shape(fragment.mesh, Execution(1));
   fragment.mass = mass_properties(shape);
@@ -125,57 +106,33 @@ void measure(Fragment& fragment) {
       100.0 * (convex_body(fragment.mesh.points).volume / shape.volume - 1.0);
 }
 
-/// Makes the fragments' meshes and the contacts from the cells.
-Fragments fragments_of(const CellComplex& complex, const Execution& execution) {
-  std::vector<FragmentMesh> meshes(complex.cell_count());
-  std::map<std::array<std::size_t, 2>, FragmentContact> contacts;
-  Fragments result;
-  result.list.resize(complex.cell_count());
-  const std::vector<Vector3>& points = complex.points();
+/// Returns the cells' faces as triangles.
+WallComplex walls_of(const CellComplex& cells) {
+  const std::vector<Vector3>& points = cells.points();
   std::unordered_set<std::uint64_t> taken;
-  for (const CellComplex::Face& face : complex.faces()) {
+  for (const CellComplex::Face& face : cells.faces()) {
     for (const auto& [a, b] : face.edges) taken.insert(undirected_key(a, b));
   }
-  for (const CellComplex::Face& face : complex.faces()) {
+  WallComplex walls;
+  std::vector<std::int32_t> numbers(points.size(), -1);
+  for (const CellComplex::Face& face : cells.faces()) {
     if (face.edges.empty()) continue;
-    const auto front = static_cast<std::size_t>(face.front);
-    const auto back = static_cast<std::size_t>(face.back);
     for (const Triangle& t : face_triangles(points, face.edges, face.normal, taken)) {
-      meshes[front].add(points, t);
-      const Vector3 doubled = doubled_area_normal(points[t[0]], points[t[1]], points[t[2]]);
-      const double area = 0.5 * doubled.norm();
-      if (!face.is_wall()) {
-        result.list[front].surface_area += area;
-        continue;
+      Triangle corners = t;
+      for (std::int32_t& corner : corners) {
+        std::int32_t& number = numbers[index(corner)];
+        if (number < 0) {
+          number = static_cast<std::int32_t>(walls.points.size());
+          walls.points.push_back(points[index(corner)]);
+        }
+        corner = number;
       }
-      meshes[back].add(points, {t[0], t[2], t[1]});
-      result.list[front].wall_area += area;
-      result.list[back].wall_area += area;
-      FragmentContact& contact = contacts[{std::min(front, back), std::max(front, back)}];
-      contact.area += area;
-      contact.centre += area / 3.0 * (points[t[0]] + points[t[1]] + points[t[2]]);
-      contact.normal += front < back ? doubled : Vector3(-doubled);
+      if (face.back > face.front) std::swap(corners[1], corners[2]);
+      walls.triangles.push_back(
+          {corners, std::max(face.front, face.back), std::min(face.front, face.back)});
     }
   }
-  for (auto& [pair, contact] : contacts) {
-    contact.first = pair[0];
-    contact.second = pair[1];
-    contact.centre /= contact.area;
-    contact.normal.normalize();
-    result.contacts.push_back(contact);
-  }
-  for (std::size_t k = 0; k < meshes.size(); ++k) {
-    result.list[k].mesh = std::move(meshes[k].mesh);
-    if (result.list[k].mesh.triangles.empty()) {
-      throw Error(ErrorCode::NumericalFailure,
-                  "Fragment " + std::to_string(k + 1) +
-                      " would be empty. Give fewer fragments, or volumes that differ less.");
-    }
-  }
-  execution.parallel_for(result.list.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) measure(result.list[k]);
-  });
-  return result;
+  return walls;
 }
 
 }  // namespace
@@ -192,8 +149,12 @@ Fragments fragment_grain(IndexedMesh scan, const FragmentOptions& options,
       cut_grain(checked.mesh, shape.volume, std::move(sites), options, execution.part(0.5, 0.9));
   const CellComplex::Moved moved = complex.join_pieces();
   execution.report(0.9, "Making the fragments' meshes");
-  Fragments result = fragments_of(complex, execution.part(0.9, 1.0));
+  Fragments result;
+  result.list.resize(complex.cell_count());
+  result.walls = walls_of(complex);
+  measure_fragments(result, execution.part(0.9, 1.0));
   result.grain = shape;
+  result.grain_edge = mean_edge_of(checked.mesh);
   result.moved_pieces = moved.pieces;
   result.moved_percent = 100.0 * moved.volume / shape.volume;
   append_repair_warnings(checked.report, "divided", result.warnings);
@@ -207,6 +168,33 @@ Fragments fragment_grain(IndexedMesh scan, const FragmentOptions& options,
         "coordinates of the grain's file.");
   }
   return result;
+}
+
+void measure_fragments(Fragments& fragments, const Execution& execution) {
+  for (Fragment& one : fragments.list) one.surface_area = one.wall_area = 0.0;
+  std::vector<IndexedMesh> meshes = body_meshes(fragments.walls, fragments.list.size());
+  for (std::size_t k = 0; k < meshes.size(); ++k) {
+    if (meshes[k].triangles.empty()) {
+      throw Error(ErrorCode::NumericalFailure,
+                  "Fragment " + std::to_string(k + 1) +
+                      " would be empty. Give fewer fragments, or volumes that differ less.");
+    }
+    fragments.list[k].mesh = std::move(meshes[k]);
+  }
+  for (const WallTriangle& t : fragments.walls.triangles) {
+    if (t.outer >= 0) continue;
+    const std::vector<Vector3>& points = fragments.walls.points;
+    fragments.list[index(t.inner)].surface_area += triangle_area(
+        points[index(t.corners[0])], points[index(t.corners[1])], points[index(t.corners[2])]);
+  }
+  fragments.contacts = common_walls(fragments.walls);
+  for (const CommonWall& wall : fragments.contacts) {
+    fragments.list[index(wall.first)].wall_area += wall.area;
+    fragments.list[index(wall.second)].wall_area += wall.area;
+  }
+  execution.parallel_for(fragments.list.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) measure(fragments.list[k]);
+  });
 }
 
 }  // namespace wscvt

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "toolbox/fragment/common_walls.h"
 #include "toolbox/fragment/fragment_options.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
@@ -23,19 +24,12 @@ struct Fragment {
   double hull_excess_percent = 0.0;
 };
 
-/// The wall between two fragments, where a bonded model puts a bond.
-struct FragmentContact {
-  std::size_t first = 0;  ///< number of a fragment, from 0; below `second`
-  std::size_t second = 0;
-  double area = 0.0;                 ///< length^2
-  Vector3 centre = Vector3::Zero();  ///< centroid of the wall
-  Vector3 normal = Vector3::Zero();  ///< unit, from first to second; the mean of a bent wall
-};
-
 struct Fragments {
   std::vector<Fragment> list;
-  std::vector<FragmentContact> contacts;  ///< ascending by first and second
+  std::vector<CommonWall> contacts;  ///< where a bonded model puts bonds; bodies count from 0
+  WallComplex walls;                 ///< of which the meshes are
   ShapeDescriptors grain;
+  double grain_edge = 0.0;         ///< mean edge of the grain's mesh, length
   std::size_t moved_pieces = 0;    ///< of cells in several pieces, see fragment_grain
   double moved_percent = 0.0;      ///< of the grain's volume
   std::vector<Sentence> warnings;  ///< sentences for the user
@@ -56,5 +50,8 @@ struct Fragments {
 /// Cancelled.
 Fragments fragment_grain(IndexedMesh scan, const FragmentOptions& options,
                          const Execution& execution = Execution());
+
+/// Makes the meshes, their measures and the contacts from `walls`, of `list.size()` fragments.
+void measure_fragments(Fragments& fragments, const Execution& execution);
 
 }  // namespace wscvt

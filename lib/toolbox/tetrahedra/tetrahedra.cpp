@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "toolbox/fragment/common_walls.h"
 #include "toolbox/tetrahedra/gmsh_library.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
@@ -23,16 +24,6 @@ namespace {
 /// The faces of a tetrahedron, outward, each opposite to the corner of its number.
 constexpr std::array<std::array<std::size_t, 3>, 4> outer_faces = {
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-double mean_edge_of(const IndexedMesh& mesh) {
-  double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      sum += (mesh.points[t[k]] - mesh.points[t[(k + 1) % 3]]).norm();
-    }
-  }
-  return sum / (3.0 * static_cast<double>(mesh.triangles.size()));
-}
 
 Triangle from_least(Triangle t) {
   std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
