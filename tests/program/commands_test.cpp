@@ -17,8 +17,10 @@
 #include "support/flat_json.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
+#include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/report.h"
@@ -384,32 +386,37 @@ TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
 }
 
 TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
-  const double diameter =
-      describe_shape_in_detail(read_mesh(path("scan.ply")), DetailedOptions(), Execution())
-          .equivalent_diameter;
-  const std::string size = std::to_string(diameter / 25.0);
-  const Json plain = report_of("describe scan.ply");
-  const Json report = report_of("describe scan.ply --voxel-size " + size +
+  const IndexedMesh scan = read_mesh(path("scan.ply"));
+  const double edge =
+      describe_shape_in_detail(scan, DetailedOptions(), Execution()).equivalent_diameter / 25.0;
+  const std::string size = format_exact(edge);
+  write_mesh(surface_of_voxels(mesh_voxels(scan, edge, {}), 20, edge), path("voxels.ply"));
+  const Json plain = report_of("describe voxels.ply");
+  const Json report = report_of("describe voxels.ply --voxel-size " + size +
                                 " --report table.csv --report page.html");
   EXPECT_FALSE(plain.contains("resolution"));
   EXPECT_EQ(report["descriptors"], plain["descriptors"]);
   const Json& resolution = report["resolution"];
-  EXPECT_NEAR(resolution["voxels_across"].get<double>(), 25.0, 1e-3);
+  EXPECT_NEAR(resolution["voxels_across"].get<double>(), 25.0, 0.2);
   const Json& area = resolution["area"];
   EXPECT_LT(area["low"].get<double>(), area["corrected"].get<double>());
   EXPECT_LT(area["corrected"].get<double>(), area["high"].get<double>());
   EXPECT_NE(area["corrected"], report["descriptors"]["area"]);
   EXPECT_TRUE(resolution["sq"]["corrected"].is_null());
-  EXPECT_EQ(run("describe scan.ply -q --voxel-size " + size + " --report table.csv").exit_code, 0);
+  EXPECT_EQ(run("describe voxels.ply -q --voxel-size " + size + " --report table.csv").exit_code,
+            0);
   const auto records = test::csv_records(content("table.csv"));
   ASSERT_EQ(records.size(), 3U);  // a second row fits below the first
   EXPECT_EQ(records[1], records[2]);
-  EXPECT_EQ(run("describe scan.ply -q --report table.csv").exit_code, 2);  // other columns
+  EXPECT_EQ(run("describe voxels.ply -q --report table.csv").exit_code, 2);  // other columns
   EXPECT_NE(content("page.html").find("<th>corrected</th>"), std::string::npos);
-  const Outcome loud = run("describe scan.ply --voxel-size " + size);
+  const Outcome loud = run("describe voxels.ply --voxel-size " + size);
   EXPECT_NE(loud.output.find("25 voxels across"), std::string::npos) << loud.output;
   EXPECT_NE(loud.output.find("Not resolved: Sq."), std::string::npos) << loud.output;
-  EXPECT_EQ(run("describe scan.ply --voxel-size 0").exit_code, 2);
+  EXPECT_EQ(run("describe voxels.ply --voxel-size 0").exit_code, 2);
+  const Outcome other = run("describe scan.ply --voxel-size " + size);
+  EXPECT_NE(other.output.find("Nothing is resolved: the mesh does not show"), std::string::npos)
+      << other.output;
 }
 
 TEST_F(Commands, DescribeMeasuresAgainstTheReference) {

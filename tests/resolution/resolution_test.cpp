@@ -106,6 +106,35 @@ TEST(MeshVoxels, RefuseWhatIsTooLongOrTooThin) {
                      [&] { surface_of_voxels(mesh_voxels(body, 100.0, {}), 20, 100.0); });
 }
 
+TEST(MeshVoxels, AreFoundAgainInTheirSurface) {
+  const IndexedMesh body = read_mesh(std::string(WSCVT_MESHES_DIR) + "/elongated_rough_8000.ply");
+  const double diameter = described(body).equivalent_diameter;
+  for (const int across : {10, 14, 20, 40}) {
+    SCOPED_TRACE(across);
+    const double size = diameter / across;
+    const std::vector<VoxelStretch> voxels = mesh_voxels(body, size, pose(across));
+    IndexedMesh surface = surface_of_voxels(voxels, 20, size);
+    for (Vector3& point : surface.points) point += size * Vector3(31.3, -7.9, 0.48);
+    const auto again = voxels_of_surface(surface, 20, size);
+    ASSERT_TRUE(again);
+    ASSERT_EQ(again->size(), voxels.size());
+    for (std::size_t k = 0; k < voxels.size(); ++k) {
+      const VoxelStretch& one = voxels[k];
+      const VoxelStretch& other = (*again)[k];
+      EXPECT_EQ(other.z - one.z, again->front().z - voxels.front().z);
+      EXPECT_EQ(other.y - one.y, again->front().y - voxels.front().y);
+      EXPECT_EQ(other.begin - one.begin, again->front().begin - voxels.front().begin);
+      EXPECT_EQ(other.end - other.begin, one.end - one.begin);
+    }
+    EXPECT_FALSE(voxels_of_surface(surface, 20, 1.1 * size));
+    EXPECT_FALSE(voxels_of_surface(surface, 20, 0.5 * size));
+    EXPECT_FALSE(voxels_of_surface(surface_of_voxels(voxels, 10, size), 20, size));
+    EXPECT_FALSE(voxels_of_surface(body, 20, size));
+    for (Vector3& point : surface.points) point = pose(2).turn * point;
+    EXPECT_FALSE(voxels_of_surface(surface, 20, size));
+  }
+}
+
 /// Bodies of which none was used for the biases.
 std::map<std::string, IndexedMesh> bodies() {
   std::map<std::string, IndexedMesh> all;
@@ -145,15 +174,18 @@ TEST(Resolution, IntervalsCoverAndCorrectedValuesAreCloser) {
       }
     }
   }
+  EXPECT_EQ(resolved["area"], 4 * (3 * 4 + 1 + 1));
   for (const std::string& key : keys) {
     SCOPED_TRACE(key);
     EXPECT_GE(covered[key], 0.9 * resolved[key]) << resolved[key];
   }
   // Of the bodies of the study the correction leaves half of area, sphericity and roundness, and
-  // .56 of convexity. Of these four it leaves 0.97 of convexity and 0.9 of roundness.
+  // .56 of convexity. Of these four it leaves .64, .60, .90 and .97.
   const std::map<std::string, double> most = {
-      {"area", 0.75}, {"sphericity_wadell", 0.75}, {"convexity", 1.0}, {"roundness_wadell", 1.0}};
-  for (const auto& [key, share] : most) EXPECT_LT(left[key], share * raw[key]) << key;
+      {"area", 0.7}, {"sphericity_wadell", 0.7}, {"convexity", 1.0}, {"roundness_wadell", 1.0}};
+  for (const auto& [key, share] : most) {
+    EXPECT_LT(left[key], share * raw[key]) << key;
+  }
 }
 
 TEST(Resolution, RoundnessOfFewVoxelsAndRoughnessAreNotResolved) {
@@ -169,7 +201,8 @@ TEST(Resolution, RoundnessOfFewVoxelsAndRoughnessAreNotResolved) {
 }
 
 TEST(Resolution, KeepsTheValuesAndTheirOrder) {
-  const IndexedMesh body = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  const IndexedMesh body = checked(
+      surface_of_voxels(mesh_voxels(ellipsoid(Vector3(1.0, 0.8, 0.6)), 0.1, pose(1)), 20, 0.1));
   const DetailedDescriptors descriptors = described(body);
   ResolutionOptions options;
   options.voxel_size = 0.1;
@@ -177,6 +210,7 @@ TEST(Resolution, KeepsTheValuesAndTheirOrder) {
   const Resolution again = measure_resolution(body, descriptors, options, Execution(3));
   const std::vector<DescriptorValue> rows = list_descriptors(descriptors);
   ASSERT_EQ(found.rows.size(), rows.size());
+  EXPECT_TRUE(row_of(found, "area").is_resolved());
   for (std::size_t k = 0; k < rows.size(); ++k) {
     EXPECT_EQ(found.rows[k].key, rows[k].key);
     if (std::isfinite(rows[k].value)) {
@@ -192,9 +226,12 @@ TEST(Resolution, KeepsTheValuesAndTheirOrder) {
     test::expect_error(ErrorCode::InvalidInput,
                        [&] { measure_resolution(body, descriptors, options, one_thread); });
   }
-  options.voxel_size = 50.0;  // thinner than a voxel: nothing is resolved, but nothing is refused
-  for (const ResolvedValue& row : measure_resolution(body, descriptors, options, one_thread).rows) {
-    EXPECT_FALSE(row.is_resolved()) << row.key;
+  // Not the voxels of this mesh, and thinner than a voxel: nothing is resolved or refused.
+  for (const double other : {0.07, 50.0}) {
+    options.voxel_size = other;
+    const Resolution none = measure_resolution(body, descriptors, options, one_thread);
+    EXPECT_EQ(resolution_sentence(none).find("Nothing is resolved"), 0U);
+    for (const ResolvedValue& row : none.rows) EXPECT_FALSE(row.is_resolved()) << row.key;
   }
 }
 

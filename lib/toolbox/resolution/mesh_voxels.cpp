@@ -10,6 +10,9 @@
 
 #include "toolbox/volume/smoothed_surface.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
+#include "wscvt/base/portable_math.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -59,6 +62,39 @@ void append_crossings(const std::vector<Vector3>& points, const Triangle& triang
       crossings.push_back({z, y, x, sides[0] > 0.0 ? -1 : 1});
     }
   }
+}
+
+/// Returns where planes of the lattice are along an axis, in voxels; nothing if the mesh shows no
+/// lattice. Smoothing moves vertices along their normals: what counts is where faces are not normal
+/// to the axis.
+std::optional<double> lattice_plane(const IndexedMesh& mesh, double voxel_size, Eigen::Index axis) {
+  double sum = 0.0;
+  double cosines = 0.0;
+  double sines = 0.0;
+  for (const Triangle& triangle : mesh.triangles) {
+    std::array<Vector3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k)
+      corners[k] = mesh.points[static_cast<std::size_t>(triangle[k])];
+    const Vector3 normal = doubled_area_normal(corners[0], corners[1], corners[2]);
+    const double square = normal.squaredNorm();
+    if (square == 0.0) continue;
+    const double along = 1.0 - normal[axis] * normal[axis] / square;
+    const double weight = along * along * along * along;
+    for (const Vector3& corner : corners) {
+      const double angle = 2.0 * pi * (corner[axis] / voxel_size);
+      sum += weight;
+      cosines += weight * portable::cos(angle);
+      sines += weight * portable::sin(angle);
+    }
+  }
+  // 100 surfaces of voxels had .15 to .5; 500 vertices at random have .15 once in 1,000 times.
+  constexpr double least = 0.15;
+  if (!(portable::hypot(cosines, sines) > least * sum)) return {};
+  return portable::atan2(sines, cosines) / (2.0 * pi);
+}
+
+double area_of(const IndexedMesh& mesh) {
+  return mesh_sums(mesh.points, mesh.triangles, mesh.points.front(), Execution(1)).area();
 }
 
 }  // namespace
@@ -119,6 +155,28 @@ IndexedMesh surface_of_voxels(const std::vector<VoxelStretch>& voxels, int passe
   VolumeGeometry geometry;
   geometry.axes *= voxel_size;
   return smoothed_surface(voxel_surface(voxels), passes, geometry);
+}
+
+std::optional<std::vector<VoxelStretch>> voxels_of_surface(const IndexedMesh& mesh, int passes,
+                                                           double voxel_size) {
+  VoxelPose pose;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const std::optional<double> plane = lattice_plane(mesh, voxel_size, axis);
+    if (!plane) return {};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vector3& point : mesh.points) least = std::min(least, point[axis] / voxel_size);
+    pose.shift[axis] = least - *plane - std::floor(least - *plane);
+  }
+  std::vector<VoxelStretch> voxels = mesh_voxels(mesh, voxel_size, pose);
+  if (voxels.empty()) return {};
+  const IndexedMesh again = surface_of_voxels(voxels, passes, voxel_size);
+  // Half the size has the same planes, but four times the faces.
+  if (again.triangles.size() > 2 * mesh.triangles.size()) return {};
+  // 100 surfaces came back with areas that differ by less than .06 %, most exactly. Those of 15 or
+  // 40 passes instead of 20 differ by .5 % at 20 voxels across.
+  constexpr double most = 0.003;
+  if (!(std::abs(area_of(again) / area_of(mesh) - 1.0) < most)) return {};
+  return voxels;
 }
 
 }  // namespace wscvt

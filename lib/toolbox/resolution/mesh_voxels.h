@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "toolbox/volume/voxel_surface.h"
@@ -26,5 +27,11 @@ std::vector<VoxelStretch> mesh_voxels(const IndexedMesh& mesh, double voxel_size
 /// voxels.
 IndexedMesh surface_of_voxels(const std::vector<VoxelStretch>& voxels, int passes,
                               double voxel_size);
+
+/// Returns the voxels of which surface_of_voxels made a mesh, moved anywhere but not turned, with
+/// as many passes; nothing for other meshes. A vertex is never more than half a voxel from its
+/// corner of the lattice, so that the centres of the voxels stay inside.
+std::optional<std::vector<VoxelStretch>> voxels_of_surface(const IndexedMesh& mesh, int passes,
+                                                           double voxel_size);
 
 }  // namespace wscvt

@@ -11,6 +11,7 @@
 #include "toolbox/resolution/descriptor_biases.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/repair/mesh_check.h"
 
@@ -48,12 +49,31 @@ std::optional<Rows> rows_again(const IndexedMesh& mesh, const ResolutionOptions&
   }
 }
 
+/// Returns 10 over the voxels across, see DescriptorBias.
+double u_of(double across) {
+  constexpr double most_measured = 40.0;
+  return 10.0 / std::min(across, most_measured);
+}
+
+/// Returns the area of a grain's voxels with few passes of smoothing. Nothing if the mesh does not
+/// show its voxels.
+std::optional<double> rough_area(const IndexedMesh& mesh, const ResolutionOptions& options) {
+  constexpr int few_passes = 5;  // chosen of 0 to 80 by bodies that did not judge, see the study
+  try {
+    const auto voxels = voxels_of_surface(mesh, options.smoothing, options.voxel_size);
+    if (!voxels) return {};
+    const IndexedMesh rough = surface_of_voxels(*voxels, few_passes, options.voxel_size);
+    return mesh_sums(rough.points, rough.triangles, rough.points.front(), Execution(1)).area();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 void correct(ResolvedValue& row, double across) {
   const DescriptorBias* bias = bias_of(row.key);
   if (bias == nullptr || across < bias->least_across) return;
   if (!std::isfinite(row.value + row.again)) return;
-  constexpr double most_measured = 40.0;
-  const double u = 10.0 / std::min(across, most_measured);
+  const double u = u_of(across);
   const double change = row.value - row.again;
   const double corrected = (1.0 + bias->floor + bias->floor_u * u) * row.value +
                            (bias->gain + bias->gain_u * u) * change;
@@ -65,17 +85,24 @@ void correct(ResolvedValue& row, double across) {
   row.high = possible(corrected + bias->above * below);
 }
 
-ResolvedValue resolved(const std::string& key, double value, double across,
-                       const std::array<double, pose_count>& again) {
+ResolvedValue unresolved(const DescriptorValue& value) {
   ResolvedValue row;
-  row.key = key;
-  row.value = value;
-  for (const double one : again) row.again += one / static_cast<double>(pose_count);
-  for (const double one : again) row.scatter += (one - row.again) * (one - row.again);
-  row.scatter = std::sqrt(row.scatter / static_cast<double>(pose_count - 1));
-  row.corrected = row.low = row.high = not_a_number;
-  correct(row, across);
+  row.key = value.key;
+  row.value = value.value;
+  row.again = row.scatter = row.corrected = row.low = row.high = not_a_number;
   return row;
+}
+
+void take_poses(const std::array<std::optional<Rows>, pose_count>& again, std::size_t at,
+                ResolvedValue& row) {
+  row.again = row.scatter = 0.0;
+  std::array<double, pose_count> values{};
+  for (std::size_t k = 0; k < pose_count; ++k) {
+    values[k] = again[k] ? (*again[k])[at].value : not_a_number;
+    row.again += values[k] / static_cast<double>(pose_count);
+  }
+  for (const double one : values) row.scatter += (one - row.again) * (one - row.again);
+  row.scatter = std::sqrt(row.scatter / static_cast<double>(pose_count - 1));
 }
 
 }  // namespace
@@ -85,21 +112,30 @@ Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors
   if (!(options.voxel_size > 0.0) || !std::isfinite(options.voxel_size)) {
     throw Error(ErrorCode::InvalidInput, "The size of a voxel must be a number above 0.");
   }
+  Resolution result;
+  result.voxel_size = options.voxel_size;
+  result.voxels_across = descriptors.equivalent_diameter / options.voxel_size;
+  for (const DescriptorValue& row : list_descriptors(descriptors)) {
+    result.rows.push_back(unresolved(row));
+  }
+  const std::optional<double> rough = rough_area(mesh, options);
+  result.has_voxels = rough.has_value();
+  if (!rough) return result;
   std::array<std::optional<Rows>, pose_count> again;
   for (std::size_t k = 0; k < pose_count; ++k) {
     execution.report(static_cast<double>(k) / pose_count, "Measuring the resolution");
     again[k] = rows_again(mesh, options, poses()[k], execution.part(0.0, 0.0));
   }
-  Resolution result;
-  result.voxel_size = options.voxel_size;
-  result.voxels_across = descriptors.equivalent_diameter / options.voxel_size;
-  const Rows rows = list_descriptors(descriptors);
-  for (std::size_t at = 0; at < rows.size(); ++at) {
-    std::array<double, pose_count> values{};
-    for (std::size_t k = 0; k < pose_count; ++k) {
-      values[k] = again[k] ? (*again[k])[at].value : not_a_number;
+  for (std::size_t at = 0; at < result.rows.size(); ++at) {
+    ResolvedValue& row = result.rows[at];
+    const double rougher = *rough / descriptors.basic.area;  // of the same volume
+    if (row.key == "area" || row.key == "sphericity_wadell") {
+      row.again = row.key == "area" ? *rough : row.value / rougher;
+      row.scatter = std::abs(row.value - row.again) * u_of(result.voxels_across);
+    } else {
+      take_poses(again, at, row);
     }
-    result.rows.push_back(resolved(rows[at].key, rows[at].value, result.voxels_across, values));
+    correct(row, result.voxels_across);
   }
   return result;
 }

@@ -24,6 +24,12 @@ struct ResolutionOptions {
 /// widths of the intervals were measured on other bodies with the default smoothing
 /// (descriptor_biases.h).
 ///
+/// For area and sphericity, w is of a surface of the first voxels themselves, with 5 passes of
+/// smoothing instead of 20: it keeps more of the voxels' steps, but also more of the grain. The
+/// scatter is then |v - w| times 10 over the voxels across. The voxels are found again in the mesh
+/// (voxels_of_surface). Nothing is resolved of a mesh that does not show them, as after a turn, or
+/// from marching cubes.
+///
 /// `descriptors` are the mesh's, measured with options.details. Throws Error(InvalidInput) for
 /// options out of range or a grain of more than 20,000 voxels across; Error(Cancelled).
 Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors& descriptors,

@@ -191,6 +191,10 @@ std::vector<std::string> table_lines(const std::vector<DescriptorValue>& values,
 }
 
 std::string resolution_sentence(const Resolution& resolution) {
+  if (!resolution.has_voxels) {
+    return "Nothing is resolved: the mesh does not show voxels of this size. Take a mesh as "
+           "wscvt extract writes it, and the size in its unit.";
+  }
   constexpr std::pair<const char*, const char*> told[] = {{"area", "area"},
                                                           {"sphericity_wadell", "sphericity"},
                                                           {"convexity", "convexity"},

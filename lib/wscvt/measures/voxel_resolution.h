@@ -11,8 +11,8 @@ namespace wscvt {
 struct ResolvedValue {
   std::string key;         ///< as in list_descriptors
   double value = 0.0;      ///< of the grain as it is
-  double again = 0.0;      ///< mean of the grain voxelised once more
-  double scatter = 0.0;    ///< standard deviation over the poses of the grain voxelised again
+  double again = 0.0;      ///< of the second surface, see measure_resolution; a mean of its poses
+  double scatter = 0.0;    ///< of the second surface, see measure_resolution
   double corrected = 0.0;  ///< without the bias of the voxels; NaN if not resolved
   double low = 0.0;        ///< ends of the interval of 95 %; NaN if not resolved
   double high = 0.0;
@@ -24,6 +24,7 @@ struct ResolvedValue {
 struct Resolution {
   double voxel_size = 0.0;          ///< length
   double voxels_across = 0.0;       ///< equivalent diameter over the size of a voxel
+  bool has_voxels = true;           ///< the mesh shows its voxels; else nothing is resolved
   std::vector<ResolvedValue> rows;  ///< one for each of list_descriptors
 };
 

@@ -4,6 +4,7 @@
 
 biases ROWS...  prints the table of descriptor_biases.cpp
 table ROWS...   prints errors of the other bodies, raw and corrected, and how often the intervals cover the true values
+each ROWS...    prints the error of area, raw and corrected, with each of all bodies left out of its own fit
 """
 
 import collections
@@ -28,14 +29,14 @@ NAMES = ("across", "truth", "value", "again", "scatter")
 
 
 def read(paths, judging):
-    """Returns the rows of each descriptor as arrays, of the bodies that judge or of the others."""
+    """Returns the rows of each descriptor as arrays, of the bodies that judge or of the others; None: of all."""
     found = collections.defaultdict(lambda: {name: [] for name in ("body", *NAMES)})
     for path in paths:
         with open(path, encoding="utf-8") as stream:
             rows = list(csv.DictReader(stream))
         bodies = list(dict.fromkeys(row["body"] for row in rows))
         for row in rows:
-            if bodies.index(row["body"]) % 2 != judging:
+            if judging is not None and bodies.index(row["body"]) % 2 != judging:
                 continue
             into = found[row["key"]]
             into["body"].append(path + row["body"])
@@ -93,6 +94,15 @@ def size_of(key, rows):
     return np.where(np.abs(rows["truth"]) > 0, np.abs(rows["truth"]), 1.0)
 
 
+def left_out(rows, matrix, error):
+    """Returns the errors that are left with each body left out of its own fit; rows of more voxels count more."""
+    left = np.zeros(len(error))
+    for body in set(rows["body"]):
+        own = rows["body"] == body
+        left[own] = error[own] - matrix[own] @ least_absolute(matrix[~own], error[~own], rows["across"][~own])
+    return left
+
+
 def fit(key, rows):
     """Returns a row of the table, and the error that is left over the error without correction; None: no bias is known."""
     least = LEAST.get(key, 10)
@@ -106,10 +116,7 @@ def fit(key, rows):
     matrix = terms(of, size)
     found = least_absolute(matrix, error, weight)
     # Each body is judged by the others, so that widths know what a new body will do.
-    left = np.zeros(len(error))
-    for body in set(of["body"]):
-        own = of["body"] == body
-        left[own] = error[own] - matrix[own] @ least_absolute(matrix[~own], error[~own], weight[~own])
+    left = left_out(of, matrix, error)
     gain = np.sum(weight * np.abs(left)) / np.sum(weight * np.abs(error))
     if gain > 0.85:  # not worth a correction: what gained less here lost on other bodies
         found, left = np.zeros(4), error
@@ -177,5 +184,15 @@ def table(paths):
                   f"{100 * inside.mean():.1f}")
 
 
+def each(paths):
+    rows = read(paths, None)["area"]
+    error = (rows["truth"] - rows["value"]) / rows["truth"]
+    left = left_out(rows, terms(rows, rows["truth"]), error)
+    print(f"{len(set(rows['body']))} bodies: voxels across | raw error %, rms | corrected error %, rms")
+    for across in np.unique(rows["across"]):
+        at = rows["across"] == across
+        print(f"{across:.0f} | " + " | ".join(percent(math.sqrt(np.mean(one[at] ** 2))) for one in (error, left)))
+
+
 if __name__ == "__main__":
-    {"biases": biases, "table": table}[sys.argv[1]](sys.argv[2:])
+    {"biases": biases, "table": table, "each": each}[sys.argv[1]](sys.argv[2:])
