@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <tuple>
@@ -347,6 +348,39 @@ TEST_F(Extract, MemoryFollowsTheGrainsInWorkNotTheVolume) {
   const long small = peak(100);  // 18 MB
   const long large = peak(500);  // 90 MB
   EXPECT_LT(large, small + 8192);
+}
+
+TEST_F(Extract, DescribesEachGrainIfAsked) {
+  write_sample();
+  const Outcome outcome = run("extract sample.nrrd dense --describe");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("Voxels across a grain: "), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("fewer nodes"), std::string::npos) << "it has no nodes";
+  // The scan's columns of a batch, which measures edges in another unit.
+  ASSERT_EQ(run("batch sample.nrrd -o out -n 100 -q --describe scan").exit_code, 0);
+  const auto shapes = rows("dense/shape.csv", "grain");
+  const auto expected = rows("out/shape.csv", "grain");
+  ASSERT_EQ(shapes.size(), 3U);
+  for (const auto& [grain, row] : expected) {
+    SCOPED_TRACE(grain);
+    EXPECT_NE(row.at("resolution.area.corrected [length^2]"), "");
+    for (const auto& [name, cell] : row) {
+      if (name == "nodes" || name == "rms_distance [length]") continue;
+      const std::string& ours = shapes.at(grain).at(name);
+      const double value = std::strtod(cell.c_str(), nullptr);
+      if (value == 0.0)
+        EXPECT_EQ(ours, cell) << name;
+      else
+        EXPECT_NEAR(std::stod(ours) / value, 1.0, 1e-12) << name;
+    }
+  }
+  const std::string table = content("dense/shape.csv");
+  EXPECT_EQ(run("extract sample.nrrd dense --describe -q -t 1").exit_code, 0);
+  EXPECT_EQ(content("dense/shape.csv"), table);
+  EXPECT_EQ(run("sample dense -q --report page.html").exit_code, 0);
+  EXPECT_EQ(run("extract sample.nrrd plain -q").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "plain/shape.csv"));
+  EXPECT_EQ(run("extract sample.nrrd walls --conforming --describe").exit_code, 2);
 }
 
 TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {

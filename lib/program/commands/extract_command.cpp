@@ -117,6 +117,9 @@ ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
   only_for_conforming(arguments.walls.edge_length > 0.0, mention(edge_length_option));
   only_for_conforming(arguments.walls.nodes > 0, mention(wall_nodes_option));
   only_for_conforming(!arguments.tetrahedra.files.empty(), "--tetrahedra");
+  if (arguments.conforming && arguments.job.describe) {
+    refuse(mention(describe_option) + " does not go with " + mention(conforming_option) + ".");
+  }
   check_conforming_options(arguments.walls);
   check_tetrahedra_arguments(arguments.tetrahedra);
   if (arguments.conforming && (is_mesh || arguments.shard.count > 1)) {
@@ -166,6 +169,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
           "Smallest grain: voxels of a volume, or % of a mesh's largest body, as 0.1%. "
           "Smaller ones, and open surfaces, are only listed. Default: 100, or 0%")
       ->type_name("N");
+  app.add_flag("--describe", arguments.job.describe,
+               help_of(arguments.job.describe, describe_option));
   app.add_flag("--conforming", arguments.conforming,
                help_of(arguments.conforming, conforming_option));
   add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
@@ -206,7 +211,8 @@ int run(const ExtractArguments& given) {
   const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);
   const JobEnd end = run_job(job, grains, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print({job.shard.count > 1 ? end_line(job, end) : write_census(arguments.job, job, grains)},
+  print(job.shard.count > 1 ? std::vector<std::string>{end_line(job, end)}
+                            : write_census(arguments.job, job, grains),
         arguments.quiet);
   return end.failed == 0 && !is_much_left_out(grains.left_out()) ? Done : SomeFailed;
 }

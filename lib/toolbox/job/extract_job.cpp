@@ -6,19 +6,25 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "toolbox/job/label_source.h"
 #include "toolbox/report/sample_table.h"
+#include "toolbox/report/shape_table.h"
+#include "toolbox/resolution/resolution.h"
 #include "toolbox/sample/csv_reader.h"
+#include "toolbox/sample/grain_table.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/mesh_quality.h"
 #include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
 
@@ -36,6 +42,37 @@ std::string body_header() {
 std::string named(const std::string& grain, const std::string& record) {
   const std::string name = csv_record({grain});
   return name.substr(0, name.size() - 2) + "," + record;
+}
+
+ShapeMeasures measures_of(const ExtractJob& job) {
+  ShapeMeasures measures;
+  measures.described = Described::Scan;
+  measures.resolution = job.table == "labels";
+  return measures;
+}
+
+/// Returns the record of a grain in the table of shapes. There is no remesh: it has no nodes.
+std::string shape_record(const ExtractJob& job, const GrainAtWork& grain) {
+  const ShapeMeasures measures = measures_of(job);
+  if (!grain.scan.refused.empty()) {
+    return failed_shape_row(grain.name, grain.scan.refused, measures);
+  }
+  try {
+    CheckedMesh checked = check_mesh(grain.scan.mesh, MeshCheckOptions(), grain.execution);
+    RemeshResult result;
+    result.scan_quality = measure_quality(checked.mesh, grain.execution);
+    result.repaired_scan = std::move(checked.mesh);
+    result.input = std::move(checked.report);
+    GrainShape shape = describe_result(result, measures.described, grain.execution);
+    if (measures.resolution) {
+      shape.resolution = resolution_of(job.volume, grain.scan.voxel_size, result.repaired_scan,
+                                       *shape.scan, grain.execution);
+    }
+    return shape_row(grain.name, grain.folders.front().name_of(grain.name), result, shape);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::Cancelled) throw;
+    return failed_shape_row(grain.name, error.what(), measures);
+  }
 }
 
 /// "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small".
@@ -94,6 +131,28 @@ Json json_of(const VolumeOptions& options) {
   put(background_option.key, is_nan ? Json("nan") : Json(options.background));
   put(at_border_option.key, options.at_border);
   return json;
+}
+
+Resolution resolution_of(const VolumeOptions& volume, double voxel_size, const IndexedMesh& scan,
+                         const DetailedDescriptors& descriptors, const Execution& execution) {
+  const std::optional<Vector3>& given = volume.choice.voxel_size;
+  if (voxel_size == 0.0 && given && given->minCoeff() == given->maxCoeff()) {
+    voxel_size = (*given)[0];
+  }
+  ResolutionOptions options;
+  if (voxel_size == 0.0 || volume.smoothing != options.smoothing) return {};
+  options.voxel_size = voxel_size;
+  return measure_resolution(scan, descriptors, options, execution);
+}
+
+void append_voxel_lines(const JobFolder& folder, std::vector<std::string>& lines) {
+  try {
+    for (const std::string& line : voxel_lines(read_grain_table(folder.file("shape", ".csv")))) {
+      lines.push_back(line);
+    }
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
+  }
 }
 
 BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execution)
@@ -179,27 +238,32 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
   job.ending = options.format;
   job.call = json_document(call);
   job.tables = {{"grains", header}};
+  if (options.describe) job.tables.push_back({"shape", shape_header(measures_of(options))});
   job.takes_refused = true;
   job.is_kept = false;
-  job.make = [](GrainAtWork& grain) -> std::vector<std::string> {
+  job.make = [options](GrainAtWork& grain) {
     const JobFolder& place = grain.folders.front();
-    if (!grain.scan.refused.empty()) return {grain.scan.record("")};
-    write_mesh(grain.scan.mesh, place.file_of(grain.name));
-    return {grain.scan.record(place.name_of(grain.name))};
+    const bool is_made = grain.scan.refused.empty();
+    if (is_made) write_mesh(grain.scan.mesh, place.file_of(grain.name));
+    std::vector<std::string> records = {
+        grain.scan.record(is_made ? place.name_of(grain.name) : "")};
+    if (options.describe) records.push_back(shape_record(options, grain));
+    return records;
   };
   const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
-  job.failed = [columns](const std::string& grain,
-                         const std::string& error) -> std::vector<std::string> {
+  job.failed = [columns, options](const std::string& grain, const std::string& error) {
     std::vector<std::string> fields = {grain, "", "", "failed", error};
     fields.resize(columns);
-    return {csv_record(fields)};
+    std::vector<std::string> records = {csv_record(fields)};
+    if (options.describe) records.push_back(failed_shape_row(grain, error, measures_of(options)));
+    return records;
   };
   return job;
 }
 
-std::string write_census(const ExtractJob& options, const GrainJob& job,
-                         const GrainSource& grains) {
-  if (job.shard.count > 1) return "";
+std::vector<std::string> write_census(const ExtractJob& options, const GrainJob& job,
+                                      const GrainSource& grains) {
+  if (job.shard.count > 1) return {};
   const JobFolder folder = folders_of(job).front();
   std::map<std::string, std::string> records;
   std::ifstream table(folder.table(), std::ios::binary);
@@ -216,7 +280,9 @@ std::string write_census(const ExtractJob& options, const GrainJob& job,
   table.close();
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
-  return line_of(census, options.table);
+  std::vector<std::string> lines = {line_of(census, options.table)};
+  if (options.describe) append_voxel_lines(folder, lines);
+  return lines;
 }
 
 }  // namespace wscvt

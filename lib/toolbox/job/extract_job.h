@@ -9,6 +9,8 @@
 #include "toolbox/job/grain_job.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {
@@ -16,8 +18,21 @@ namespace wscvt {
 inline constexpr NumberOption<double> smallest_body_option = {
     "smallest", "volume of the smallest body in % of the largest one's", 0.0, 100.0};
 
+inline constexpr FlagOption describe_option = {
+    "describe", "describe each grain",
+    "in shape.csv, with the values without the error of the voxels"};
+
 /// Returns every option of a volume under the name that users type.
 Json json_of(const VolumeOptions& options);
+
+/// Returns what the voxels did to a scan; without rows if their size is not known, or if the biases
+/// of the descriptors were measured with another smoothing. `voxel_size` of the scan, length; 0: a
+/// cube of the options, if they have it.
+Resolution resolution_of(const VolumeOptions& volume, double voxel_size, const IndexedMesh& scan,
+                         const DetailedDescriptors& descriptors, const Execution& execution);
+
+/// Appends what the voxels did to the sample of the table of shapes in a folder, see voxel_lines.
+void append_voxel_lines(const JobFolder& folder, std::vector<std::string>& lines);
 
 /// The closed bodies of a mesh, with the names PATH/1, PATH/2, ... in the order of the file. Its
 /// census is a table of all bodies: CSV with a row per body, see lib/doc/program.md.
@@ -54,14 +69,16 @@ struct ExtractJob {
   VolumeOptions volume;          ///< of a volume
   double smallest_body = 0.0;    ///< of a mesh, see BodyGrains
   std::string table = "labels";  ///< name of the census: "labels" or "bodies"
+  bool describe = false;         ///< also makes shape.csv, see shape_table.h, of scans only
 };
 
 /// Returns the job. Its table, grains.csv, has the rows of the census for the grains that are made,
 /// until write_census.
 GrainJob make_job(const ExtractJob& options, const std::string& folder, const Shard& shard = {});
 
-/// Writes the census of a job that is done. Returns a line for a log. Does nothing for a part of a
+/// Writes the census of a job that is done. Returns lines for a log. Does nothing for a part of a
 /// sample.
-std::string write_census(const ExtractJob& options, const GrainJob& job, const GrainSource& grains);
+std::vector<std::string> write_census(const ExtractJob& options, const GrainJob& job,
+                                      const GrainSource& grains);
 
 }  // namespace wscvt

@@ -12,8 +12,6 @@
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
-#include "toolbox/resolution/resolution.h"
-#include "toolbox/sample/grain_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -69,20 +67,6 @@ struct MeasuredScan {
   std::optional<Resolution> resolution;
 };
 
-/// Returns what the voxels did; without rows if their size is not known, or if the biases of
-/// the descriptors were measured with another smoothing.
-Resolution resolution_of(const RemeshJob& job, double voxel_size, const IndexedMesh& scan,
-                         const DetailedDescriptors& descriptors, const Execution& execution) {
-  const std::optional<Vector3>& given = job.volume.choice.voxel_size;
-  if (voxel_size == 0.0 && given && given->minCoeff() == given->maxCoeff()) {
-    voxel_size = (*given)[0];
-  }
-  ResolutionOptions options;
-  if (voxel_size == 0.0 || job.volume.smoothing != options.smoothing) return {};
-  options.voxel_size = voxel_size;
-  return measure_resolution(scan, descriptors, options, execution);
-}
-
 /// Returns the measures of a level. A failed measurement becomes a warning of the remesh, and its
 /// message is written to `error`.
 GrainShape measure_level(const RemeshJob& job, double voxel_size, RemeshResult& result,
@@ -101,7 +85,7 @@ GrainShape measure_level(const RemeshJob& job, double voxel_size, RemeshResult& 
     if (measures.resolution && scan.shape) {
       if (!scan.resolution) {
         scan.resolution =
-            resolution_of(job, voxel_size, result.repaired_scan, *scan.shape, execution);
+            resolution_of(job.volume, voxel_size, result.repaired_scan, *scan.shape, execution);
       }
       shape.resolution = scan.resolution;
     }
@@ -264,17 +248,11 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
     }
     for (const std::string& line : summary_lines(summary)) lines.push_back(line);
   }
-  const std::string shapes = folders_of(job).back().file("shape", ".csv");  // the most nodes
   const bool has_voxels =
       std::any_of(job.tables.begin(), job.tables.end(), [](const JobTable& one) {
         return one.name == "shape" && one.header.find("resolution.") != std::string::npos;
       });
-  if (!has_voxels) return lines;
-  try {
-    for (const std::string& line : voxel_lines(read_grain_table(shapes))) lines.push_back(line);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
-  }
+  if (has_voxels) append_voxel_lines(folders_of(job).back(), lines);  // of the most nodes
   return lines;
 }
 
