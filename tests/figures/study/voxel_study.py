@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What voxels do, on bodies of its own whose true shape is known: rounded polyhedra with waves, seen from their centre.
+"""What voxels do, on bodies whose true shape is known: its own, rounded polyhedra with waves, seen from their centre.
 
-nodes WSCVT [FOLDER]  how many nodes the voxels resolve; files are in the folder, which is a temporary one if not given
+nodes WSCVT            how many nodes the voxels resolve
+coverage WSCVT DAT...  how many intervals contain the true value: of 6 bodies of its own and of real particles (spherical
+                       harmonics), in eight poses from exact labels, and in four from grey values with blur and noise
 """
 
+import csv
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -46,6 +50,27 @@ class Body:
         return lengths < self.radius(scaled / np.maximum(lengths, 1e-9)[:, None])
 
 
+class Particle:
+    """The radius of a particle of spherical harmonics (.dat: n m Re Im) in each direction, by a table of degrees."""
+
+    def __init__(self, path):
+        from scipy.special import sph_harm
+        polar, around = np.meshgrid(np.radians(np.arange(0, 181)), np.radians(np.arange(0, 361)), indexing="ij")
+        self.table = np.zeros(polar.shape)
+        for n, m, real, imaginary in np.loadtxt(path):
+            self.table += (complex(real, imaginary) * sph_harm(int(m), int(n), around, polar)).real
+        self.axes = np.ones(3)
+
+    def radius(self, directions):
+        from scipy.ndimage import map_coordinates
+        polar = np.degrees(np.arccos(np.clip(directions[:, 2], -1, 1)))
+        around = np.degrees(np.arctan2(directions[:, 1], directions[:, 0])) % 360
+        return map_coordinates(self.table, np.array([polar, around]), order=3, mode="nearest")
+
+    mesh = Body.mesh
+    inside = Body.inside
+
+
 def cube_sphere(count):
     """Returns directions and triangles of a sphere: six faces of count x count squares."""
     steps = np.tan(np.pi / 4 * (2 * np.arange(count + 1) / count - 1))
@@ -73,30 +98,33 @@ def cube_sphere(count):
 SPHERE, FACES = cube_sphere(40)
 
 
-def volume(points):
-    return np.einsum("ij,ij->i", points[FACES[:, 0]], np.cross(points[FACES[:, 1]], points[FACES[:, 2]])).sum() / 6
+def volume(points, faces=FACES):
+    return np.einsum("ij,ij->i", points[faces[:, 0]], np.cross(points[faces[:, 1]], points[faces[:, 2]])).sum() / 6
 
 
-def write_off(path, points):
+def write_off(path, points, faces=FACES):
     with open(path, "w", encoding="ascii") as stream:
-        stream.write(f"OFF\n{len(points)} {len(FACES)} 0\n")
+        stream.write(f"OFF\n{len(points)} {len(faces)} 0\n")
         np.savetxt(stream, points, "%.9g")
-        np.savetxt(stream, np.c_[np.full(len(FACES), 3), FACES], "%d")
+        np.savetxt(stream, np.c_[np.full(len(faces), 3), faces], "%d")
 
 
-def placed(seed, across):
-    """Returns which voxels have their centres inside the body, and the true mesh, in voxels."""
-    body = Body(seed)
+def placed(body, across, seed):
+    """Returns which voxels have their centres inside the body, the true mesh in voxels, and the test of points in voxels."""
     points = body.mesh(SPHERE)
     scale = across / (6 * volume(points) / np.pi) ** (1 / 3)
-    draw = np.random.default_rng(100 * seed + across)
+    draw = np.random.default_rng(seed)
     turn = np.linalg.qr(draw.normal(size=(3, 3)))[0]
     turn *= np.sign(np.linalg.det(turn))
     true = points * scale @ turn.T
     low = true.min(0) - 6 - draw.uniform(0, 1, 3)
     counts = np.ceil(true.max(0) - low).astype(int) + 6
-    grid = np.stack(np.meshgrid(*[np.arange(n) + 0.5 for n in counts], indexing="ij"), -1).reshape(-1, 3) + low
-    return body.inside(grid @ turn / scale).reshape(counts), true - low
+    grid = np.stack(np.meshgrid(*[np.arange(n) + 0.5 for n in counts], indexing="ij"), -1).reshape(-1, 3)
+
+    def inside(at):
+        return body.inside((at + low) @ turn / scale)
+
+    return inside(grid).reshape(counts), true - low, inside
 
 
 def save(path, array, kind=np.uint8):
@@ -117,7 +145,7 @@ def nodes(program):
     print("body | voxels across | rms of the scan, voxels | nodes: side of a node's cell in voxels, rms over the scan's")
     for seed in range(101, 105):
         for across in (12, 20, 40):
-            inside, true = placed(seed, across)
+            inside, true, _ = placed(Body(seed), across, 100 * seed + across)
             save("labels.npy", inside)
             write_off("true.off", true)
             call(program, "extract", "labels.npy", "scan", "-q")
@@ -132,9 +160,89 @@ def nodes(program):
             print(f"{seed} | {across} | {rms:.3f} | " + "; ".join(cells), flush=True)
 
 
+KEYS = ("area", "sphericity_wadell", "convexity", "roundness_wadell", "aspect_ratio_inertia", "axis_s_box", "feret_max",
+        "feret_min", "mean_curvature_integral", "sdq_invariant")
+POSES = 8
+
+
+def rms(values):
+    return math.sqrt(np.nanmean(values ** 2))
+
+
+def grey_of(labels, inside):
+    """Returns grey values of the body: what part of a voxel is inside, blurred by .7 voxel."""
+    from scipy.ndimage import binary_dilation, binary_erosion, gaussian_filter
+    grey = labels.astype(float)
+    near = np.argwhere(binary_dilation(labels, iterations=2) & ~binary_erosion(labels, iterations=2))
+    parts = np.stack(np.meshgrid(*[[1 / 6, 1 / 2, 5 / 6]] * 3), -1).reshape(-1, 3)
+    at = (near[:, None] + parts).reshape(-1, 3)
+    grey[tuple(near.T)] = inside(at).reshape(len(near), -1).mean(1)
+    return gaussian_filter(grey, 0.7)
+
+
+def side_by_side(volumes):
+    """Returns one volume of all of them along x."""
+    counts = np.max([one.shape for one in volumes], 0)
+    return np.concatenate([np.pad(one, [(0, n - m) for n, m in zip(counts, one.shape)])
+                           for one in volumes])
+
+
+def shapes(program, labels):
+    """Returns the rows of the grains of labels."""
+    call(program, "extract", labels, "out", "-q", "--describe")
+    with open("out/shape.csv", encoding="utf-8") as stream:
+        return list(csv.DictReader(stream))
+
+
+def coverage(program, *files):
+    sphere, faces = cube_sphere(100)  # the truth has chords of a 150th of a diameter
+    bodies = [Body(seed) for seed in range(201, 207)] + [Particle(file) for file in files]
+    found = {}
+    for number, body in enumerate(bodies):
+        write_off("true.off", body.mesh(sphere), faces)
+        true = report(program, "describe", "true.off")["descriptors"]
+        for across in (10, 15, 20, 30, 40):
+            size = (6 * volume(body.mesh(SPHERE)) / np.pi) ** (1 / 3) / across  # as in placed
+            placings = [placed(body, across, 10000 * number + 100 * across + pose)[::2] for pose in range(POSES)]
+            draw = np.random.default_rng(number)
+            for kind in ("labels", "grey values"):
+                if kind == "labels":
+                    save("labels.npy", side_by_side([(k + 1) * labels for k, (labels, _) in enumerate(placings)]))
+                else:
+                    grey = side_by_side([grey_of(*one) for one in placings[::2]])
+                    save("scan.npy", grey + draw.normal(0, 0.1, grey.shape), np.float32)  # a tenth of the step
+                    call(program, "segment", "scan.npy", "labels.nrrd", "--separate", 0, "-q")
+                for row in shapes(program, "labels.npy" if kind == "labels" else "labels.nrrd"):
+                    if row["status"] != "done":
+                        continue
+                    cells = {name.split(" [")[0]: cell for name, cell in row.items()}
+                    units = {name[5:].split(" [")[0]: name[:-1].split(" [")[-1] for name in row if name.startswith("scan.")}
+                    for key in KEYS:
+                        unit = {"length": 1, "length^2": 2}.get(units.get(key), 0)
+                        values = [float(cells[name] or "nan") * size ** unit for name in
+                                  (f"scan.{key}", *(f"resolution.{key}.{end}" for end in ("corrected", "low", "high")))]
+                        found.setdefault((kind, key, across), []).append((true[key], *values))
+        print(f"body {number + 1} of {len(bodies)}", file=sys.stderr, flush=True)
+    print_coverage(found)
+
+
+def print_coverage(found):
+    print("from | descriptor | voxels across | rows | resolved % | raw error % | corrected error % | half width % | covered %")
+    for (kind, key, across), rows in sorted(found.items(), key=lambda one: (one[0][0] != "labels", KEYS.index(one[0][1]), one[0][2])):
+        truth, raw, corrected, low, high = np.array(rows).T
+        of = 1 if key.startswith("roundness") else np.abs(truth)
+        good = np.isfinite(corrected)
+        cells = [f"{100 * good.mean():.0f}", f"{100 * rms((raw - truth) / of):.2f}"]
+        if good.any():
+            cells += [f"{100 * rms(((corrected - truth) / of)[good]):.2f}", f"{100 * ((high - low) / 2 / of)[good].mean():.2f}",
+                      f"{100 * ((low <= truth) & (truth <= high))[good].mean():.1f}"]
+        print(f"{kind} | {key} | {across} | {len(rows)} | " + " | ".join(cells))
+
+
 if __name__ == "__main__":
     wscvt = pathlib.Path(sys.argv[2]).resolve()
-    command = {"nodes": nodes}[sys.argv[1]]
+    command = {"nodes": nodes, "coverage": coverage}[sys.argv[1]]
+    given = [pathlib.Path(name).resolve() for name in sys.argv[3:]]
     with tempfile.TemporaryDirectory() as folder:
-        os.chdir(sys.argv[3] if len(sys.argv) > 3 else folder)
-        command(wscvt)
+        os.chdir(folder)
+        command(wscvt, *given)
