@@ -21,6 +21,7 @@
 #include "toolbox/volume/label_grains.h"
 #include "toolbox/volume/label_writer.h"
 #include "toolbox/volume/segmentation_page.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
@@ -341,42 +342,129 @@ double blurred_ball(double distance, double radius, double grey, double blur) {
   return 0.5 * grey * std::erfc((distance - radius) / (std::sqrt(2.0) * blur));
 }
 
-TEST_F(SegmentationOfTwoMinerals, TellsHowMuchAPhaseOrBlurChangesVolumes) {
-  constexpr double radius = 8.0;
-  const std::array<Vector3, 4> middles = {Vector3(13.1, 13.4, 13.2), Vector3(40.3, 13.2, 13.7),
-                                          Vector3(13.6, 40.1, 13.9), Vector3(40.4, 40.7, 13.3)};
-  std::mt19937 random(6);
-  // Grey values over the void's of 40: of three grains and of one, of a film, and the blur.
-  const auto write_scan = [&](double first, double second, double film, double blur) {
-    made_ = MadeVolume({54, 54, 27});
-    made_.fill(0, [](const Vector3&) { return true; });
+/// Four balls with grey values over a void of 40, each with its own, and what else a test adds.
+class SegmentationOfFourBalls : public SegmentationOfTwoMinerals {
+ protected:
+  static constexpr double radius = 8.0;
+  static constexpr double ball_volume = 4.0 / 3.0 * pi * radius * radius * radius;
+
+  /// `add`: grey value at a point besides the balls'. `margin`: of voxels along x and y.
+  template <class Add>
+  void write_scan(const std::array<double, 4>& over, double blur, const Add& add,
+                  bool is_mirrored = false, int margin = 0) {
+    const std::array<Vector3, 4> middles = {Vector3(13.1, 13.4, 13.2), Vector3(40.3, 13.2, 13.7),
+                                            Vector3(13.6, 40.1, 13.9), Vector3(40.4, 40.7, 13.3)};
+    std::mt19937 random(6);
+    const int width = 54 + 2 * margin;
+    made_ = MadeVolume({width, width, 27});
     for (std::size_t k = 0; k < made_.labels.size(); ++k) {
-      const auto at = [&](std::size_t step, int count) {
-        return 0.5 + static_cast<double>(k / step % static_cast<std::size_t>(count));
-      };
-      const Vector3 p(at(1, 54), at(54, 54), at(std::size_t{54} * 54, 27));
-      double grey = 40.0;
+      const int n = static_cast<int>(k);
+      const Vector3 p(n % width - margin + 0.5, n / width % width - margin + 0.5,
+                      n / (width * width) + 0.5);
+      double grey = 40.0 + add(p);
       for (std::size_t ball = 0; ball < middles.size(); ++ball) {
-        const double distance = (p - middles[ball]).norm();
-        const double over = ball == 3 ? second : first;
-        grey += blurred_ball(distance, radius, over - film, blur) +
-                blurred_ball(distance, radius + 3.5, film, blur);
+        grey += blurred_ball((p - middles[ball]).norm(), radius, over[ball], blur);
       }
       made_.labels[k] = static_cast<Label>(grey + static_cast<double>(random() % 9));
+      if (is_mirrored) made_.labels[k] = 1000 - made_.labels[k];
     }
     write_made();
-    return segmented();
-  };
-  EXPECT_EQ(looks(write_scan(120, 120, 0, 0.8)), "");
-  EXPECT_EQ(looks(write_scan(120, 120, 0, 1.4)), "");
+  }
+  /// Volumes of the grains over a ball's, by their labels.
+  static std::vector<double> volumes(const Segmentation& found) {
+    std::vector<double> shares;
+    for (const LabelExtent& grain : found.grains) {
+      shares.push_back(static_cast<double>(grain.voxels) / ball_volume);
+    }
+    return shares;
+  }
+  static double nothing(const Vector3& /*point*/) { return 0.0; }
+};
 
-  const std::string bright = looks(write_scan(40, 150, 0, 0.8));
-  EXPECT_NE(bright.find("% too large"), std::string::npos) << bright;
-  EXPECT_NE(bright.find("--threshold 11"), std::string::npos) << bright;
+TEST_F(SegmentationOfFourBalls, EachGrainHasItsOwnEdge) {
+  // With one level for all, the bright ball is 30 % too large and more.
+  for (const double bright : {90.0, 150.0, 400.0}) {
+    for (const bool is_dark : {false, true}) {
+      write_scan({40, 40, 40, bright}, 0.8, nothing, is_dark);
+      SegmentationOptions options;
+      options.dark = is_dark;
+      const Segmentation found = segmented(options);
+      ASSERT_EQ(found.grains.size(), 4U) << bright;
+      for (const double volume : volumes(found)) {
+        // The level of .05 of a contrast is a blur's 1.6 standard deviations out, or 40 %.
+        EXPECT_NEAR(volume, 1.0, 0.05) << bright << (is_dark ? " dark" : "");
+      }
+      EXPECT_EQ(looks(found).find("too large"), std::string::npos) << looks(found);
+    }
+  }
+}
 
-  const std::string soft = looks(write_scan(120, 120, 0, 2.5));
+TEST_F(SegmentationOfFourBalls, AnInclusionIsNotTheEdgeOfItsGrain) {
+  // In one grain, from 5 and from 4 voxels below its surface on.
+  for (const double core : {3.0, 4.0}) {
+    write_scan({80, 80, 80, 80}, 0.8, [&](const Vector3& p) {
+      return blurred_ball((p - Vector3(13.1, 13.4, 13.2)).norm(), core, 400, 0.8);
+    });
+    const std::vector<double> found = volumes(segmented());
+    ASSERT_EQ(found.size(), 4U);
+    // The core's blur makes a quarter of what is measured brighter; its own edge would take 60 %.
+    for (const double volume : found) EXPECT_NEAR(volume, 1.0, 0.06) << core;
+  }
+}
+
+TEST_F(SegmentationOfFourBalls, ABlurBeyondWhatIsCorrectedIsTold) {
+  for (const double blur : {0.8, 1.4}) {
+    write_scan({120, 120, 120, 120}, blur, nothing);
+    EXPECT_EQ(looks(segmented()), "") << blur;
+  }
+  write_scan({120, 120, 120, 120}, 2.5, nothing);
+  const std::string soft = looks(segmented());
   EXPECT_NE(soft.find("too small, smaller ones more"), std::string::npos) << soft;
   EXPECT_NE(soft.find("% too small"), std::string::npos) << soft;
+}
+
+TEST_F(SegmentationOfFourBalls, TheWallOfAContainerIsNoGrainAndIsTold) {
+  // Walls that touch all balls: a tube in air, a box at the border, and a plate below. They are as
+  // bright as the balls, darker and brighter.
+  const auto edge = [](double inwards, double thickness, double grey) {
+    constexpr double width = 1.13;  // of the blur
+    return grey * 0.25 * std::erfc(-inwards / width) * std::erfc((inwards - thickness) / width);
+  };
+  for (const double grey : {120.0, 60.0, 300.0}) {
+    const auto tube = [&](const Vector3& p) {
+      return edge(31.0 - std::hypot(p[0] - 26.9, p[1] - 27.0), 4.0, grey);
+    };
+    const auto box = [&](const Vector3& p) {
+      return edge(std::min({p[0], p[1], 54.0 - p[0], 54.0 - p[1]}) + 4.0, 9.1, grey);
+    };
+    const auto plate = [&](const Vector3& p) { return edge(p[2] - 1.3, 4.0, grey); };
+    for (int kind = 0; kind < 3; ++kind) {
+      SCOPED_TRACE(std::to_string(kind) + " of " + std::to_string(grey));
+      if (kind == 0) write_scan({120, 120, 120, 120}, 0.8, tube, false, 6);
+      if (kind == 1) write_scan({120, 120, 120, 120}, 0.8, box);
+      if (kind == 2) write_scan({120, 120, 120, 120}, 0.8, plate);
+      const Segmentation found = segmented();
+      EXPECT_NE(looks(found).find("taken for a container"), std::string::npos) << looks(found);
+      ASSERT_EQ(found.grains.size(), 4U);
+      EXPECT_GT(found.wall, 0U);
+      // Where a ball touches, a cap of a voxel and a half may go with the wall: 2.5 %.
+      for (const double volume : volumes(found)) EXPECT_NEAR(volume, 1.0, 0.05);
+    }
+  }
+  // The same in a mask. Without a wall there is none, not even of one hollow grain.
+  for (Label& label : made_.labels) label = label > 100 ? 255 : 0;
+  write_made();
+  EXPECT_TRUE(segmented().is_mask);
+  EXPECT_EQ(segmented().grains.size(), 4U);
+  EXPECT_GT(segmented().wall, 0U);
+  made_ = MadeVolume({40, 38, 36});
+  const std::int64_t ball = made_.fill_ball(200, {20, 19, 18}, 15.0);
+  made_.fill_ball(0, {20, 19, 18}, 11.0);
+  made_.fill_ball(200, {20, 19, 18}, 3.0);
+  write_made();
+  EXPECT_EQ(segmented().wall, 0U);
+  ASSERT_EQ(segmented().grains.size(), 1U);
+  EXPECT_EQ(segmented().grains[0].voxels, static_cast<std::uint64_t>(ball));
 }
 
 TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {

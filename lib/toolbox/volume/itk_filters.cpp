@@ -39,6 +39,12 @@ void fill_holes(std::vector<std::uint8_t>&, const FilterCounts&, const Execution
   require_filters();
 }
 
+std::vector<float> distances_to_zero(const std::vector<std::uint8_t>&, const FilterCounts&,
+                                     const std::array<double, 3>&, const Execution&) {
+  require_filters();
+  return {};
+}
+
 Basins basins_of(const std::vector<std::uint8_t>&, const FilterCounts&,
                  const std::array<double, 3>&, double, const Execution&) {
   require_filters();
@@ -185,11 +191,28 @@ void fill_holes(std::vector<std::uint8_t>& mask, const FilterCounts& counts,
   std::copy_n(filter->GetOutput()->GetBufferPointer(), mask.size(), mask.begin());
 }
 
+std::vector<float> distances_to_zero(const std::vector<std::uint8_t>& mask,
+                                     const FilterCounts& counts,
+                                     const std::array<double, 3>& spacing,
+                                     const Execution& execution) {
+  use_one_thread();
+  auto filter =
+      itk::SignedMaurerDistanceMapImageFilter<VoxelImage<std::uint8_t>, VoxelImage<float>>::New();
+  filter->SetInput(image_of(mask.data(), counts, spacing));
+  filter->SetBackgroundValue(1);  // distances are measured from voxels of 0
+  filter->SetUseImageSpacing(true);
+  filter->SetSquaredDistance(false);
+  filter->SetInsideIsPositive(false);
+  run(*filter, &execution, "Measuring distances");
+  const float* const distances = filter->GetOutput()->GetBufferPointer();
+  return {distances, distances + mask.size()};
+}
+
 Basins basins_of(const std::vector<std::uint8_t>& mask, const FilterCounts& counts,
                  const std::array<double, 3>& spacing, double depth, const Execution& execution) {
   // Without material or without void there is no distance.
   const auto one_basin = [&] {
-    return Basins{{mask.begin(), mask.end()}, std::vector<std::uint16_t>(mask.size(), 0)};
+    return Basins{{mask.begin(), mask.end()}, std::vector<std::uint16_t>(mask.size(), 0), 0.0};
   };
   if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return one_basin();
   if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return one_basin();
@@ -199,16 +222,8 @@ Basins basins_of(const std::vector<std::uint8_t>& mask, const FilterCounts& coun
   double step = depth / 100.0;
   std::vector<std::uint16_t> heights(mask.size(), std::numeric_limits<std::uint16_t>::max());
   {
-    auto filter =
-        itk::SignedMaurerDistanceMapImageFilter<VoxelImage<std::uint8_t>, VoxelImage<float>>::New();
-    filter->SetInput(image_of(mask.data(), counts, spacing));
-    filter->SetBackgroundValue(1);  // distances are measured from voxels of 0
-    filter->SetUseImageSpacing(true);
-    filter->SetSquaredDistance(false);
-    filter->SetInsideIsPositive(false);
-    run(*filter, &execution, "Measuring distances");
-    const float* const distances = filter->GetOutput()->GetBufferPointer();
-    const double largest = *std::max_element(distances, distances + mask.size());
+    const std::vector<float> distances = distances_to_zero(mask, counts, spacing, execution);
+    const double largest = *std::max_element(distances.begin(), distances.end());
     step = std::max(step, largest / std::numeric_limits<std::uint16_t>::max());
     for (std::size_t k = 0; k < mask.size(); ++k) {
       if (mask[k] != 0) heights[k] -= static_cast<std::uint16_t>(distances[k] / step);
@@ -228,6 +243,7 @@ Basins basins_of(const std::vector<std::uint8_t>& mask, const FilterCounts& coun
   for (std::size_t k = 0; k < mask.size(); ++k) basins.labels[k] = mask[k] == 0 ? 0 : found[k];
   for (std::uint16_t& height : heights) height = std::numeric_limits<std::uint16_t>::max() - height;
   basins.distances = std::move(heights);
+  basins.step = step;
   return basins;
 }
 

@@ -29,10 +29,18 @@ std::vector<std::uint16_t> median_of(const std::vector<std::uint16_t>& grey,
 void fill_holes(std::vector<std::uint8_t>& mask, const FilterCounts& counts,
                 const Execution& execution);
 
+/// Returns the distance from each voxel of 1 to the nearest one of 0; both occur. `spacing`: edge
+/// lengths of a voxel. Runs on one thread.
+std::vector<float> distances_to_zero(const std::vector<std::uint8_t>& mask,
+                                     const FilterCounts& counts,
+                                     const std::array<double, 3>& spacing,
+                                     const Execution& execution);
+
 /// Basins of distances to the nearest voxel of 0.
 struct Basins {
   std::vector<std::uint32_t> labels;     ///< from 1; 0 for voxels of 0
-  std::vector<std::uint16_t> distances;  ///< in steps of one length for all voxels
+  std::vector<std::uint16_t> distances;  ///< in steps
+  double step = 0.0;                     ///< a length
 };
 
 /// Returns the watershed basins of the distance to the nearest voxel of 0: one for each maximum

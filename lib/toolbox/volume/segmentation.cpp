@@ -6,6 +6,8 @@
 #include <new>
 #include <utility>
 
+#include "toolbox/volume/container_wall.h"
+#include "toolbox/volume/grain_plateaus.h"
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/level_mask.h"
@@ -303,9 +305,7 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
   }
 }
 
-/// Measures what moves the surfaces of grains: blur, a film around them, and a threshold that is
-/// not half way from the phase with the highest contrast to the void. The void is the phase beyond
-/// the threshold that has the most voxels.
+/// Measures what moves the surfaces of grains: blur, and a film around them.
 void measure_edges(const ShortGrey& scan, const std::vector<std::uint8_t>& outside,
                    const VoxelCounts& sizes, const GreyCounts& counts,
                    const std::vector<GreyPeak>& peaks, Segmentation& result) {
@@ -325,56 +325,120 @@ void measure_edges(const ShortGrey& scan, const std::vector<std::uint8_t>& outsi
       }
     }
   }
-  if (peaks.size() < 3) return;
-  const GreyPeak* space = nullptr;
+}
+
+/// Edge of a cube with the volume of a voxel; a length.
+double voxel_length(const VolumeGeometry& geometry) {
+  return portable::cbrt(geometry.axes.colwise().norm().prod());
+}
+
+/// Returns the basins of a mask, so fine that they cut every neck.
+Basins fine_basins(const std::vector<std::uint8_t>& mask, const VolumeGeometry& geometry,
+                   const Execution& execution) {
+  // Steps of voxels make false maxima of up to half a voxel.
+  constexpr double depth = 0.5;
+  const Vector3 spacing = geometry.axes.colwise().norm();
+  return basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
+                   depth * voxel_length(geometry), execution);
+}
+
+/// Returns the phases, if the void is one of them; those of material are beyond the level.
+std::optional<Phases> phases_of(const std::vector<GreyPeak>& peaks, double level, bool is_dark) {
+  Phases phases;
+  std::size_t spaces = 0;
   for (const GreyPeak& peak : peaks) {
-    const bool is_space = result.is_dark ? static_cast<double>(peak.value) > level
-                                         : static_cast<double>(peak.value) < level;
-    if (is_space && (space == nullptr || peak.voxels > space->voxels)) space = &peak;
+    const auto value = static_cast<double>(peak.value);
+    if ((value < level) != is_dark) {
+      phases.space = value;
+      ++spaces;
+    } else {
+      phases.materials.push_back(value);
+    }
   }
-  if (space == nullptr) return;
-  const auto from = static_cast<double>(space->value);
-  const auto to = static_cast<double>(result.is_dark ? peaks.front().value : peaks.back().value);
-  const double middle = 0.5 * (from + to);
-  const double blur = std::min(
-      largest_blur, blur_at(scan.grey, outside, sizes, {middle, std::abs(to - from), false, 1}));
-  const double share = std::clamp((level - from) / (to - from), 0.02, 0.98);
-  // The normal distribution as a logistic one.
-  const double shift = blur / 1.702 * portable::log((1.0 - share) / share);
-  result.extreme = {scan.base + scan.step * to, scan.base + scan.step * middle, shift};
+  if (is_dark) std::reverse(phases.materials.begin(), phases.materials.end());
+  if (spaces != 1 || phases.materials.empty()) return std::nullopt;
+  return phases;
+}
+
+/// Returns the material with the surface of each grain half way from its own grey value to the
+/// void, from that by one level.
+std::vector<std::uint8_t> material_of_each(const std::vector<std::uint16_t>& grey,
+                                           const std::vector<std::uint8_t>& mask,
+                                           const std::vector<std::uint8_t>& outside,
+                                           const VolumeGeometry& geometry, const Phases& phases,
+                                           int medians, const Execution& execution) {
+  std::vector<std::uint8_t> filled = mask;
+  fill_holes(filled, geometry.counts, execution.part(0.0, 0.1));
+  Basins basins = fine_basins(filled, geometry, execution.part(0.1, 0.9));
+  filled = {};
+  const std::vector<std::uint16_t> even = even_contrast(
+      grey, mask, outside, std::move(basins), geometry.counts, voxel_length(geometry), phases);
+  return level_mask(even, outside, geometry.counts, {0.5 * even_full, even_full, false, medians},
+                    execution.part(0.9, 1.0));
+}
+
+/// Adds the wall of a container among material to what is left out; whether there is one.
+bool leave_out_wall(const std::vector<std::uint8_t>& mask, const VolumeGeometry& geometry,
+                    std::vector<std::uint8_t>& left_out, Segmentation& result,
+                    const Execution& execution) {
+  const ContainerWall wall =
+      container_wall(mask, geometry.counts, geometry.axes.colwise().norm(), execution);
+  if (wall.voxels == 0) return false;
+  if (left_out.empty()) left_out.assign(mask.size(), 0);
+  for (std::size_t k = 0; k < mask.size(); ++k) left_out[k] |= wall.marks[k];
+  result.wall += wall.voxels;
+  return true;
 }
 
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
-/// given, and the peaks of `result`.
+/// given, and the peaks of `result`. `left_out`: what was not scanned, to which the wall of a
+/// container is added.
 std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
-                                      const std::vector<std::uint8_t>& outside,
+                                      std::vector<std::uint8_t>& left_out,
                                       const SegmentationOptions& options, Segmentation& result,
                                       const Execution& execution) {
   const VoxelCounts& sizes = scan.geometry().counts;
-  ShortGrey values = short_grey(scan, range, outside, execution.part(0.0, 0.2));
+  ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
-  grey = median_of(grey, sizes, execution.part(0.2, 0.7));
-  GreyCounts counts = counts_of(grey, outside, sizes);
-  result.threshold = options.threshold.value_or(0.0);
+  grey = median_of(grey, sizes, execution.part(0.1, 0.3));
+  GreyCounts counts = counts_of(grey, left_out, sizes);
   std::vector<GreyPeak> peaks;
-  if (!options.threshold) {
-    if (!options.phases) {
-      smooth_until_peaks(grey, counts, outside, sizes, result, execution.part(0.7, 0.9));
-    }
-    result.threshold = base + step * level_of(counts.all, counts.inside, options, peaks);
-    for (const GreyPeak& peak : peaks) {
-      result.peaks.push_back(base + step * static_cast<double>(peak.value));
-    }
+  std::vector<std::uint8_t> mask;
+  const auto find_material = [&] {
+    peaks.clear();
+    result.threshold = options.threshold
+                           ? *options.threshold
+                           : base + step * level_of(counts.all, counts.inside, options, peaks);
+    const double level = (result.threshold - base) / step;
+    mask = level_mask(grey, left_out, sizes,
+                      {level, contrast_at(counts.all, level), options.dark, result.medians},
+                      execution.part(0.4, 0.45));
+  };
+  if (!options.threshold && !options.phases) {
+    smooth_until_peaks(grey, counts, left_out, sizes, result, execution.part(0.3, 0.4));
+  }
+  find_material();
+  // A tube may have another one inside.
+  constexpr int most_walls = 3;
+  for (int walls = 0; walls < most_walls && leave_out_wall(mask, scan.geometry(), left_out, result,
+                                                           execution.part(0.45, 0.5));
+       ++walls) {
+    counts = counts_of(grey, left_out, sizes);
+    find_material();
+  }
+  for (const GreyPeak& peak : peaks) {
+    result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }
   if (result.is_flat) {
     result.is_flat =
-        !are_phases(grey, counts.all, scan.geometry(), options, execution.part(0.9, 0.95));
+        !are_phases(grey, counts.all, scan.geometry(), options, execution.part(0.5, 0.55));
   }
-  measure_edges(values, outside, sizes, counts, peaks, result);
-  const double level = (result.threshold - base) / step;
-  return level_mask(grey, outside, sizes,
-                    {level, contrast_at(counts.all, level), options.dark, result.medians},
-                    execution.part(0.95, 1.0));
+  measure_edges(values, left_out, sizes, counts, peaks, result);
+  const std::optional<Phases> phases =
+      phases_of(peaks, (result.threshold - base) / step, options.dark);
+  if (!phases) return mask;
+  return material_of_each(grey, mask, left_out, scan.geometry(), *phases, result.medians,
+                          execution.part(0.55, 1.0));
 }
 
 /// Returns whether each label of a volume is within two voxels of one that was not scanned.
@@ -412,12 +476,7 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double neck,
                                            const Execution& execution) {
-  // Small enough to cut every neck; steps of voxels make false maxima of up to half a voxel.
-  constexpr double depth = 0.5;
-  const Vector3 spacing = geometry.axes.colwise().norm();
-  const double voxel = portable::cbrt(spacing.prod());
-  Basins basins = basins_of(mask, geometry.counts, {spacing[0], spacing[1], spacing[2]},
-                            depth * voxel, execution.part(0.0, 0.9));
+  Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.9));
   mask = {};
   join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
   basins.distances = {};
@@ -493,6 +552,7 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   result.is_mask = range.are_two;
   result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
   result.voxels = voxels_of(geometry.counts);
+  std::vector<std::uint8_t> left_out = outside;
   std::vector<std::uint8_t> mask;
   const Execution reading = execution.part(0.1, 0.4);
   if (result.is_mask) {
@@ -505,12 +565,17 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
       const float value = grey_value(code);
       return options.dark ? value <= result.threshold : value >= result.threshold;
     });
-    for (std::size_t k = 0; k < outside.size(); ++k) {
-      if (outside[k] != 0) mask[k] = 0;
-    }
+    const auto clear = [&] {
+      for (std::size_t k = 0; k < left_out.size(); ++k) {
+        if (left_out[k] != 0) mask[k] = 0;
+      }
+    };
+    clear();
+    if (leave_out_wall(mask, geometry, left_out, result, reading)) clear();
   } else {
-    mask = material_of(scan, range, outside, options, result, reading);
+    mask = material_of(scan, range, left_out, options, result, reading);
   }
+  left_out = {};
   const std::uint64_t open = material_count(mask);
   fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
   result.filled = material_count(mask) - open;

@@ -75,15 +75,9 @@ struct Segmentation {
   std::optional<double> film;
   /// Voxels of the film that count as material, an estimate.
   std::uint64_t film_voxels = 0;
-  /// The material with the highest contrast, if there are several phases.
-  struct Extreme {
-    double peak = 0.0;   ///< grey value
-    double level = 0.0;  ///< half way from it to the void around it
-    double shift = 0.0;  ///< by which the threshold moves its surface outwards, voxels
-  };
-  std::optional<Extreme> extreme;
   int medians = 1;                ///< so often the grey values were smoothed; more for noise
   std::uint64_t not_scanned = 0;  ///< voxels outside of what was scanned, see not_scanned
+  std::uint64_t wall = 0;         ///< voxels of the wall of a container, which is no material
   std::size_t cut = 0;            ///< grains that touch them; not among `grains`
   std::uint64_t voxels = 0;       ///< of the volume
   std::uint64_t material = 0;     ///< voxels of grains, including dropped ones
@@ -96,11 +90,12 @@ struct Segmentation {
 ///
 /// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
 /// the median of each voxel and its 26 neighbours, again if noise leaves one peak, the threshold
-/// with a correction of the blur (see level_mask.h), holes in the material filled,
-/// touching parts separated. A volume of two values is a mask; the larger value is the material, or
-/// the smaller one if it is dark.
-/// Throws Error: InvalidInput for options out of range, without ITK, for a volume of one value, and
-/// if no grain is left; Cancelled, and what the volume throws.
+/// with a correction of the blur (see level_mask.h), the wall of a container left out (see
+/// container_wall.h), unless a threshold is given the surface of each grain half way to its own
+/// grey value (see grain_plateaus.h), holes in the material filled, touching parts separated. A
+/// volume of two values is a mask; the larger value is the material, or the smaller one if it is
+/// dark. Throws Error: InvalidInput for options out of range, without ITK, for a volume of one
+/// value, and if no grain is left; Cancelled, and what the volume throws.
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
                      const Execution& execution);
 

@@ -178,22 +178,6 @@ double median_radius(const Segmentation& segmentation) {
 void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
   const double radius = median_radius(segmentation);
   constexpr double small = 0.05;
-  const auto cubed = [](double value) { return value * value * value; };
-  if (segmentation.extreme && radius > segmentation.extreme->shift) {
-    const auto& [peak, level, shift] = *segmentation.extreme;
-    const double bias = cubed(radius / (radius - shift)) - 1.0;
-    if (std::abs(bias) > small) {
-      doubts.push_back(
-          "The threshold is not half way between the grains of " + format_number(peak, 4) +
-          " and the space around them, " + format_number(level, 4) +
-          ": grains of this grey value come out about " +
-          std::to_string(std::llround(100.0 * std::abs(bias))) + " % too " +
-          (bias > 0.0
-               ? "large. For their volumes, segment once more, without the other grains, by " +
-                     mention("threshold", format_number(level, 4)) + "."
-               : Sentence("small.")));
-    }
-  }
   if (segmentation.film && segmentation.material > 2 * segmentation.film_voxels) {
     const double grain =
         segmentation.is_dark ? segmentation.peaks.front() : segmentation.peaks.back();
@@ -276,6 +260,13 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      " times before two peaks stood out. Grains of a few voxels may be lost, and "
                      "outlines are rough. If they are wrong, give " +
                      mention("threshold") + ".");
+  }
+  if (segmentation.wall > 0) {
+    doubts.push_back("A smooth wall of one thickness, " +
+                     format_percent(share_of(segmentation.wall, segmentation.voxels)) +
+                     " of the volume, lies around the grains or beside them: it is taken for a "
+                     "container, and left out. "
+                     "Grains that touch it are parted from it at its thickness.");
   }
   if (segmentation.cut > 0) {
     doubts.push_back(std::to_string(segmentation.cut) +

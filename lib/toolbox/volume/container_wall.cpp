@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/container_wall.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "toolbox/volume/itk_filters.h"
+
+namespace wscvt {
+
+namespace {
+
+/// One of the six sides of a volume, and the rays from it, one from each of its voxels.
+struct RaySide {
+  std::size_t across;  ///< voxels along a ray
+  std::ptrdiff_t step;
+  std::array<std::size_t, 2> counts;
+  std::array<std::size_t, 2> steps;
+  std::size_t corner;  ///< first voxel of the first ray
+
+  std::size_t ray(std::size_t u, std::size_t v) const {
+    return corner + u * steps[0] + v * steps[1];
+  }
+  std::size_t at(std::size_t begin, std::size_t depth) const {
+    return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(begin) +
+                                    step * static_cast<std::ptrdiff_t>(depth));
+  }
+};
+
+RaySide ray_side(const VoxelCounts& counts, std::size_t axis, bool is_far) {
+  const std::array<std::size_t, 3> sizes = {static_cast<std::size_t>(counts[0]),
+                                            static_cast<std::size_t>(counts[1]),
+                                            static_cast<std::size_t>(counts[2])};
+  const std::array<std::size_t, 3> steps = {1, sizes[0], sizes[0] * sizes[1]};
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  const auto step = static_cast<std::ptrdiff_t>(steps[axis]);
+  return {sizes[axis],
+          is_far ? -step : step,
+          {sizes[u], sizes[v]},
+          {steps[u], steps[v]},
+          is_far ? steps[axis] * (sizes[axis] - 1) : 0};
+}
+
+/// Returns the depth of the first material on each ray; `across` without any.
+std::vector<std::size_t> depths_from(const RaySide& side, const std::vector<std::uint8_t>& mask) {
+  std::vector<std::size_t> depths;
+  for (std::size_t v = 0; v < side.counts[1]; ++v) {
+    for (std::size_t u = 0; u < side.counts[0]; ++u) {
+      const std::size_t begin = side.ray(u, v);
+      std::size_t depth = 0;
+      while (depth < side.across && mask[side.at(begin, depth)] == 0) ++depth;
+      depths.push_back(depth);
+    }
+  }
+  return depths;
+}
+
+/// Whether a side sees a smooth surface, as of a wall and not of many grains. A tenth of a ball is
+/// as steep as `steep`, and a fortieth of a tube.
+bool is_smooth(const RaySide& side, const std::vector<std::size_t>& depths) {
+  constexpr std::size_t steep = 3;
+  constexpr std::size_t fewest_of = 20;
+  std::size_t pairs = 0;
+  std::size_t rough = 0;
+  const auto look = [&](std::size_t a, std::size_t b) {
+    if (depths[a] == side.across || depths[b] == side.across) return;
+    ++pairs;
+    if (std::max(depths[a], depths[b]) - std::min(depths[a], depths[b]) > steep) ++rough;
+  };
+  for (std::size_t k = 0; k < depths.size(); ++k) {
+    if (k % side.counts[0] > 0) look(k, k - 1);
+    if (k >= side.counts[0]) look(k, k - side.counts[0]);
+  }
+  return 2 * pairs > depths.size() && fewest_of * rough < pairs;
+}
+
+/// Rays from one side to the first material.
+struct SideView {
+  RaySide side;
+  std::vector<std::size_t> depths;
+};
+
+/// What some sides see, with a layer of voxels more at each side.
+struct Views {
+  FilterCounts counts;
+  std::vector<std::uint8_t> rest;    ///< 0: before the first material, from one of the sides
+  std::vector<std::uint8_t> behind;  ///< 1: on a ray of one, from its first material on
+};
+
+/// `seen`: whether each side counts.
+Views views_of(const std::vector<SideView>& sides, const VoxelCounts& counts,
+               const std::array<bool, 6>& seen) {
+  Views views;
+  views.counts = {counts[0] + 2, counts[1] + 2, counts[2] + 2};
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const auto rows = static_cast<std::size_t>(counts[1]);
+  const auto padded = [&](std::size_t k) {
+    return ((k / (width * rows) + 1) * (rows + 2) + k / width % rows + 1) * (width + 2) +
+           k % width + 1;
+  };
+  const std::array<std::size_t, 3> steps = {1, width + 2, (width + 2) * (rows + 2)};
+  views.behind.assign(steps[2] * (static_cast<std::size_t>(counts[2]) + 2), 0);
+  views.rest.assign(views.behind.size(), 1);
+  for (std::size_t face = 0; face < sides.size(); ++face) {
+    if (!seen[face]) continue;
+    const auto& [side, depths] = sides[face];
+    const auto step = static_cast<std::ptrdiff_t>(steps[face / 2]) * (side.step < 0 ? -1 : 1);
+    for (std::size_t ray = 0; ray < depths.size(); ++ray) {
+      if (depths[ray] == side.across) continue;
+      // The layer is before the first voxel.
+      auto place =
+          static_cast<std::ptrdiff_t>(padded(side.ray(ray % side.counts[0], ray / side.counts[0])));
+      place -= step;
+      for (std::size_t depth = 0; depth <= side.across; ++depth, place += step) {
+        if (depth <= depths[ray]) {
+          views.rest[static_cast<std::size_t>(place)] = 0;
+        } else {
+          views.behind[static_cast<std::size_t>(place)] = 1;
+        }
+      }
+    }
+  }
+  return views;
+}
+
+/// Calls take(voxel, place among views) for each voxel.
+template <class Take>
+void for_each_place(const VoxelCounts& counts, const Take& take) {
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const auto rows = static_cast<std::size_t>(counts[1]);
+  std::size_t k = 0;
+  for (std::size_t z = 1; z <= static_cast<std::size_t>(counts[2]); ++z) {
+    for (std::size_t y = 1; y <= rows; ++y) {
+      const std::size_t begin = (z * (rows + 2) + y) * (width + 2) + 1;
+      for (std::size_t x = 0; x < width; ++x) take(k++, begin + x);
+    }
+  }
+}
+
+/// Returns the share of material among the voxels behind, by their distance to what was before in
+/// steps of `length`; -1 where there are none.
+std::vector<double> shares_by_distance(const Views& views, const std::vector<std::uint8_t>& mask,
+                                       const VoxelCounts& counts,
+                                       const std::vector<float>& distances, double length) {
+  std::vector<std::array<std::uint64_t, 2>> found;
+  for_each_place(counts, [&](std::size_t k, std::size_t place) {
+    if (views.behind[place] == 0 || views.rest[place] == 0) return;
+    const auto bin = static_cast<std::size_t>(std::lround(distances[place] / length));
+    if (bin >= found.size()) found.resize(bin + 1, {0, 0});
+    ++found[bin][0];
+    found[bin][1] += mask[k];
+  });
+  std::vector<double> shares;
+  for (const auto& [all, material] : found) {
+    shares.push_back(all == 0 ? -1.0 : static_cast<double>(material) / static_cast<double>(all));
+  }
+  return shares;
+}
+
+/// Returns the step at which a wall has ended: nearly all is material before it, and much less
+/// there; 0: there is no wall.
+std::size_t end_of_wall(const std::vector<double>& shares) {
+  constexpr double nearly_all = 0.95;
+  constexpr double much_less = 0.75;
+  constexpr std::size_t drop = 3;  // a wall is rough by a voxel
+  std::size_t end = 1;
+  while (end < shares.size() && shares[end] >= nearly_all) ++end;
+  if (end < 3) return 0;  // by less, grains that are seen first have one thickness too
+  for (std::size_t k = end; k < shares.size() && k < end + drop; ++k) {
+    if (shares[k] >= 0.0 && shares[k] <= much_less) return k;
+  }
+  return 0;
+}
+
+/// Returns the wall that some sides see.
+ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
+                      const VoxelCounts& counts, const Vector3& spacing,
+                      const Execution& execution) {
+  const std::vector<float> distances =
+      distances_to_zero(views.rest, views.counts, {spacing[0], spacing[1], spacing[2]}, execution);
+  const double length = spacing.maxCoeff();
+  const std::size_t end = end_of_wall(shares_by_distance(views, mask, counts, distances, length));
+  if (end == 0) return {};
+  ContainerWall wall;
+  wall.marks.assign(mask.size(), 0);
+  std::uint64_t material = 0;
+  bool reaches_border = false;
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const auto rows = static_cast<std::size_t>(counts[1]);
+  const auto is_end = [](std::size_t at, std::size_t count) { return at == 0 || at + 1 == count; };
+  for_each_place(counts, [&](std::size_t k, std::size_t place) {
+    material += mask[k];
+    if (distances[place] > (static_cast<double>(end) + 0.5) * length) return;
+    wall.marks[k] = 1;
+    wall.voxels += mask[k];
+    reaches_border =
+        reaches_border ||
+        (mask[k] != 0 && (is_end(k % width, width) || is_end(k / width % rows, rows) ||
+                          is_end(k / (width * rows), static_cast<std::size_t>(counts[2]))));
+  });
+  // A grain may be hollow: most lie within the volume, and hold little.
+  const std::uint64_t held = material - wall.voxels;
+  if (held == 0 || (!reaches_border && 2 * held < wall.voxels)) return {};
+  return wall;
+}
+
+}  // namespace
+
+ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelCounts& counts,
+                             const Vector3& spacing, const Execution& execution) {
+  std::vector<SideView> sides;
+  std::array<bool, 6> smooth = {};
+  for (std::size_t face = 0; face < 6; ++face) {
+    const RaySide side = ray_side(counts, face / 2, face % 2 == 1);
+    sides.push_back({side, depths_from(side, mask)});
+    smooth[face] = is_smooth(side, sides.back().depths);
+  }
+  // All smooth sides; without those of one axis, because a few large grains look smooth through the
+  // open ends of a tube; one alone, of a plate.
+  std::vector<std::array<bool, 6>> choices = {smooth};
+  for (std::size_t but = 0; but < 3; ++but) {
+    choices.push_back(smooth);
+    choices.back()[2 * but] = choices.back()[2 * but + 1] = false;
+  }
+  for (std::size_t face = 0; face < 6; ++face) {
+    choices.emplace_back();
+    choices.back().fill(false);
+    choices.back()[face] = smooth[face];
+  }
+  for (std::size_t k = 0; k < choices.size(); ++k) {
+    const auto end = choices.begin() + static_cast<std::ptrdiff_t>(k);
+    const bool is_some = std::count(choices[k].begin(), choices[k].end(), true) > 0;
+    if (!is_some || std::find(choices.begin(), end, choices[k]) != end) continue;
+    ContainerWall wall =
+        wall_in(views_of(sides, counts, choices[k]), mask, counts, spacing, execution);
+    if (wall.voxels > 0) return wall;
+  }
+  return {};
+}
+
+}  // namespace wscvt

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/volume/grain_plateaus.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace wscvt {
+
+namespace {
+
+/// Distance from the mask's surface up to which voxels may change sides; voxels. The level of a
+/// grain ten times as bright as another is 1.3 standard deviations of the blur out, 2.5 of 1.9.
+constexpr double reach = 2.5;
+
+/// Grey values of a basin, ascending.
+using Greys = std::vector<std::pair<std::uint32_t, std::uint16_t>>;
+
+/// Returns the grey value of the phase nearest to the void that has a quarter of the values
+/// [begin, end): its own lower quartile, because an inclusion below makes others brighter.
+double plateau_of(const Greys& greys, std::size_t begin, std::size_t end, const Phases& phases) {
+  const double sign = phases.materials.front() < phases.space ? -1.0 : 1.0;
+  const auto at = [&](std::size_t k) {
+    return static_cast<double>(greys[sign > 0.0 ? begin + k : end - 1 - k].second);
+  };
+  const std::size_t count = end - begin;
+  std::size_t first = 0;
+  for (std::size_t phase = 0; phase < phases.materials.size(); ++phase) {
+    std::size_t last = count;
+    if (phase + 1 < phases.materials.size()) {
+      const double border = 0.5 * (phases.materials[phase] + phases.materials[phase + 1]);
+      last = first;
+      while (last < count && sign * (at(last) - border) < 0.0) ++last;
+    }
+    if (4 * (last - first) >= count) return at(first + (last - first) / 4);
+    first = last;
+  }
+  return at(count / 2);
+}
+
+/// Returns the grey value of each basin.
+std::vector<double> plateaus_of(const std::vector<std::uint16_t>& grey,
+                                const std::vector<std::uint8_t>& mask, const Basins& basins,
+                                double voxel, const Phases& phases) {
+  const std::vector<std::uint32_t>& labels = basins.labels;
+  const std::size_t count = *std::max_element(labels.begin(), labels.end()) + std::size_t{1};
+  std::vector<double> radii(count, 0.0);
+  const auto depth = [&](std::size_t k) { return basins.step * basins.distances[k] / voxel; };
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    radii[labels[k]] = std::max(radii[labels[k]], depth(k));
+  }
+  // Below the blur. A bright grain's surface is about a voxel below the mask's.
+  constexpr double begin_of_shell = 2.5;
+  constexpr double thickness = 2.5;
+  constexpr double of_radius = 0.75;  // of small basins
+  Greys inner;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (mask[k] == 0) continue;
+    const double begin = std::min(begin_of_shell, of_radius * radii[labels[k]]);
+    if (depth(k) >= begin && depth(k) <= begin + thickness) inner.emplace_back(labels[k], grey[k]);
+  }
+  std::sort(inner.begin(), inner.end());
+  std::vector<double> plateaus(count, phases.materials.front());
+  for (std::size_t begin = 0; begin < inner.size();) {
+    std::size_t end = begin;
+    while (end < inner.size() && inner[end].first == inner[begin].first) ++end;
+    plateaus[inner[begin].first] = plateau_of(inner, begin, end, phases);
+    begin = end;
+  }
+  return plateaus;
+}
+
+/// Returns the median of the void's voxels that no grown label has; `otherwise` if there are few.
+double space_of(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& left_out,
+                const std::vector<std::uint32_t>& grown, double otherwise) {
+  std::vector<std::uint16_t> values;
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (grown[k] == 0 && (left_out.empty() || left_out[k] == 0)) values.push_back(grey[k]);
+  }
+  constexpr std::size_t few = 1000;
+  if (values.size() < few) return otherwise;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Gives voxels of 0 up to a few faces away from a label that label.
+void grow(std::vector<std::uint32_t>& labels, const VoxelCounts& counts) {
+  // The sides of the median, of the mean and of the Laplacian of level_mask.
+  constexpr int faces = 3;
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  std::vector<std::pair<std::size_t, std::uint32_t>> next;
+  for (int face = 0; face < faces; ++face) {
+    next.clear();
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      if (labels[k] != 0) continue;
+      std::uint32_t found = 0;
+      if (k % width > 0) found = std::max(found, labels[k - 1]);
+      if (k % width + 1 < width) found = std::max(found, labels[k + 1]);
+      if (k % slice >= width) found = std::max(found, labels[k - width]);
+      if (k % slice + width < slice) found = std::max(found, labels[k + width]);
+      if (k >= slice) found = std::max(found, labels[k - slice]);
+      if (k + slice < labels.size()) found = std::max(found, labels[k + slice]);
+      if (found != 0) next.emplace_back(k, found);
+    }
+    for (const auto& [k, label] : next) labels[k] = label;
+  }
+}
+
+/// Sets plateaus that are not those of the surface to the phase nearest to the void: where more
+/// voxels are on the side of the void than a blurred edge has, a rim lies around an inclusion.
+void correct_rims(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& mask,
+                  const Basins& basins, double voxel, const Phases& phases,
+                  std::vector<double>& plateaus) {
+  // Voxels of the edge for each at the surface: up to 2.1 among 290 grains of 1.1 to 5 times the
+  // usual contrast, by blurs of .8 voxels.
+  constexpr double thickest = 2.3;
+  std::vector<std::array<std::size_t, 2>> found(plateaus.size(), {0, 0});
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (mask[k] == 0) continue;
+    const std::uint32_t label = basins.labels[k];
+    const double depth = basins.step * basins.distances[k] / voxel;
+    const double full = plateaus[label] - phases.space;
+    if (depth < 1.1) ++found[label][0];
+    if (depth <= 2.0 * reach && (grey[k] - phases.space) / full < 0.5) ++found[label][1];
+  }
+  for (std::size_t k = 1; k < plateaus.size(); ++k) {
+    if (static_cast<double>(found[k][1]) > thickest * static_cast<double>(found[k][0])) {
+      plateaus[k] = phases.materials.front();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> even_contrast(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& mask,
+                                         const std::vector<std::uint8_t>& left_out, Basins basins,
+                                         const VoxelCounts& counts, double voxel, Phases phases) {
+  std::vector<double> plateaus = plateaus_of(grey, mask, basins, voxel, phases);
+  correct_rims(grey, mask, basins, voxel, phases, plateaus);
+  grow(basins.labels, counts);
+  phases.space = space_of(grey, left_out, basins.labels, phases.space);
+  std::vector<std::uint16_t> even(grey.size());
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (basins.step * basins.distances[k] > reach * voxel) {
+      even[k] = mask[k] != 0 ? even_full : 0;
+      continue;
+    }
+    const std::uint32_t label = basins.labels[k];
+    const double plateau = label == 0 ? phases.materials.front() : plateaus[label];
+    const double share = (static_cast<double>(grey[k]) - phases.space) / (plateau - phases.space);
+    even[k] = static_cast<std::uint16_t>(std::lround(even_full * std::clamp(share, 0.0, 1.0)));
+  }
+  return even;
+}
+
+}  // namespace wscvt
