@@ -447,8 +447,9 @@ TEST_F(SegmentationOfFourBalls, TheWallOfAContainerIsNoGrainAndIsTold) {
       EXPECT_NE(looks(found).find("taken for a container"), std::string::npos) << looks(found);
       ASSERT_EQ(found.grains.size(), 4U);
       EXPECT_GT(found.wall, 0U);
-      // Where a ball touches, a cap of a voxel and a half may go with the wall: 2.5 %.
-      for (const double volume : volumes(found)) EXPECT_NEAR(volume, 1.0, 0.05);
+      // Where a ball touches, a cap of 1.8 voxels, 3.5 %, may go with the wall; one of a box
+      // touches two.
+      for (const double volume : volumes(found)) EXPECT_NEAR(volume, 1.0, 0.07);
     }
   }
   // The same in a mask. Without a wall there is none, not even of one hollow grain.

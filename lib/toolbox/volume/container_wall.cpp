@@ -165,8 +165,8 @@ std::vector<double> shares_by_distance(const Views& views, const std::vector<std
 /// there; 0: there is no wall.
 std::size_t end_of_wall(const std::vector<double>& shares) {
   constexpr double nearly_all = 0.95;
-  constexpr double much_less = 0.75;
-  constexpr std::size_t drop = 3;  // a wall is rough by a voxel
+  constexpr double much_less = 0.5;  // grains touch a wall at places, a matrix fills most
+  constexpr std::size_t drop = 3;    // a wall is rough by a voxel
   std::size_t end = 1;
   while (end < shares.size() && shares[end] >= nearly_all) ++end;
   if (end < 3) return 0;  // by less, grains that are seen first have one thickness too
@@ -176,9 +176,10 @@ std::size_t end_of_wall(const std::vector<double>& shares) {
   return 0;
 }
 
-/// Returns the wall that some sides see.
+/// Returns the wall that some sides see. `must_cross`: it goes from one side of the volume to the
+/// opposite one.
 ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
-                      const VoxelCounts& counts, const Vector3& spacing,
+                      const VoxelCounts& counts, const Vector3& spacing, bool must_cross,
                       const Execution& execution) {
   const std::vector<float> distances =
       distances_to_zero(views.rest, views.counts, {spacing[0], spacing[1], spacing[2]}, execution);
@@ -188,23 +189,26 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
   ContainerWall wall;
   wall.marks.assign(mask.size(), 0);
   std::uint64_t material = 0;
-  bool reaches_border = false;
+  std::array<std::array<bool, 2>, 3> reaches = {};
   const auto width = static_cast<std::size_t>(counts[0]);
   const auto rows = static_cast<std::size_t>(counts[1]);
-  const auto is_end = [](std::size_t at, std::size_t count) { return at == 0 || at + 1 == count; };
   for_each_place(counts, [&](std::size_t k, std::size_t place) {
     material += mask[k];
     if (distances[place] > (static_cast<double>(end) + 0.5) * length) return;
     wall.marks[k] = 1;
-    wall.voxels += mask[k];
-    reaches_border =
-        reaches_border ||
-        (mask[k] != 0 && (is_end(k % width, width) || is_end(k / width % rows, rows) ||
-                          is_end(k / (width * rows), static_cast<std::size_t>(counts[2]))));
+    if (mask[k] == 0) return;
+    ++wall.voxels;
+    const std::array<std::size_t, 3> at = {k % width, k / width % rows, k / (width * rows)};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (at[axis] == 0) reaches[axis][0] = true;
+      if (at[axis] + 1 == static_cast<std::size_t>(counts[axis])) reaches[axis][1] = true;
+    }
   });
-  // A grain may be hollow: most lie within the volume, and hold little.
+  const bool crosses = std::any_of(reaches.begin(), reaches.end(),
+                                   [](const auto& ends) { return ends[0] && ends[1]; });
+  // A grain may be hollow: it lies within the volume, and holds little.
   const std::uint64_t held = material - wall.voxels;
-  if (held == 0 || (!reaches_border && 2 * held < wall.voxels)) return {};
+  if (held == 0 || (!crosses && (must_cross || 2 * held < wall.voxels))) return {};
   return wall;
 }
 
@@ -236,7 +240,7 @@ ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelC
     const bool is_some = std::count(choices[k].begin(), choices[k].end(), true) > 0;
     if (!is_some || std::find(choices.begin(), end, choices[k]) != end) continue;
     ContainerWall wall =
-        wall_in(views_of(sides, counts, choices[k]), mask, counts, spacing, execution);
+        wall_in(views_of(sides, counts, choices[k]), mask, counts, spacing, k > 0, execution);
     if (wall.voxels > 0) return wall;
   }
   return {};
