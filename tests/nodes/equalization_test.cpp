@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "nodes/fit_bodies.h"
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 
 namespace wscvt {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "nodes/fit_bodies.h"
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 #include "wscvt/nodes/fit_state.h"
 
 namespace wscvt {
@@ -26,7 +26,7 @@ TEST(FitSamples, LieOnTheScanOneInEachShareOfItsArea) {
   constexpr std::size_t count = 3000;
   const std::vector<FitSample> samples = draw_fit_samples(body, {}, count, 1e9);
   ASSERT_EQ(samples.size(), count);
-  const FaceBoxes boxes(body, Execution(1), "boxes");
+  const MeshDistance boxes(body, Execution(1), "boxes");
   const double area = area_of_faces(body, 0, body.triangles.size());
   std::size_t face = 0;
   double up_to = 0.0;
@@ -75,7 +75,7 @@ TEST(FitSamples, HaveNormalsOfVerticesOnFineFacesAndTheirOwnOnCoarseOnes) {
   for (const FitSample& sample : draw_fit_samples(ball, {}, 1000, 100.0 * face)) {
     fine = std::max(fine, (sample.normal - sample.point.normalized()).norm());
   }
-  const FaceBoxes boxes(ball, Execution(1), "boxes");
+  const MeshDistance boxes(ball, Execution(1), "boxes");
   for (const FitSample& sample : draw_fit_samples(ball, {}, 1000, 0.5 * face)) {
     coarse = std::max(coarse, (sample.normal - sample.point.normalized()).norm());
     // Flat over its face: a small step along the face stays on it.

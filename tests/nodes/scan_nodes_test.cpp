@@ -14,7 +14,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/self_intersections.h"
@@ -47,7 +47,7 @@ double area_of(const IndexedMesh& mesh) {
 
 /// Root mean square distance of the scan's vertices from a mesh.
 double rms_from(const IndexedMesh& scan, const IndexedMesh& mesh) {
-  const FaceBoxes boxes(mesh, Execution(1), "boxes");
+  const MeshDistance boxes(mesh, Execution(1), "boxes");
   double sum = 0.0;
   for (const double d : boxes.distances(scan.points, Execution(1))) sum += d * d;
   return std::sqrt(sum / static_cast<double>(scan.points.size()));
@@ -98,7 +98,7 @@ TEST(ScanNodes, AreEvenAndNearerToTheScanThanNodesThatLieOnIt) {
   EXPECT_NEAR(fitted.report.mean_edge_ratio, ratio_of(fitted.mesh), 1e-12);
   EXPECT_GE(smallest_angle(fitted.mesh), 30.0);
   EXPECT_LT(rms_from(sand(), fitted.mesh), 0.75 * rms_from(sand(), evened.mesh));
-  const FaceBoxes scan(sand(), Execution(1), "boxes");
+  const MeshDistance scan(sand(), Execution(1), "boxes");
   for (const Vector3& p : evened.mesh.points) EXPECT_LT(scan.distance(p), 1e-9);
 }
 

@@ -8,32 +8,15 @@
 #include <optional>
 #include <utility>
 
-#include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
-#include "wscvt/report/open_table.h"
 #include "wscvt/report/page_figures.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Options under their command-line names.
-struct OptionMembers {
-  Json members = Json::object();
-  template <class Number>
-  void operator()(const Number& value, const NumberOption<Number>& option) {
-    members[std::string(option.key)] = value;
-  }
-  void operator()(const bool& value, const FlagOption& option) {
-    members[std::string(option.key)] = value;
-  }
-  void operator()(const ClumpError& value) {
-    members[std::string(EnumerationTable<ClumpError>::key)] = key_of(value);
-  }
-};
 
 double percent_of_radius(const ClumpResult& clump, double length) {
   return 100.0 * length / clump.equivalent_radius;
@@ -176,9 +159,9 @@ std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump)
 }  // namespace
 
 Json json_of(const ClumpOptions& options) {
-  OptionMembers members;
-  for_each_clump_option(options, members);
-  return std::move(members.members);
+  OptionsJson json;
+  for_each_clump_option(options, json);
+  return json.take();
 }
 
 std::vector<std::string> clump_lines(const ClumpResult& clump) {
@@ -253,20 +236,14 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
 }
 
 void check_clump_report(const std::string& path) {
-  if (report_format(path) == ReportFormat::Row) return check_table(path, clump_csv(ClumpResult()));
-  check_writable(path);
+  check_forms(path, [] { return clump_csv(ClumpResult()); });
 }
 
 void write_report(const std::string& path, const ClumpResult& clump, const ReportOrigin& origin,
                   const Execution& execution) {
-  switch (report_format(path)) {
-    case ReportFormat::Page:
-      return write_file(path, clump_html(clump, origin, execution));
-    case ReportFormat::Document:
-      return write_file(path, clump_json(clump, origin));
-    case ReportFormat::Row:
-      return append_to_table(path, clump_csv(clump, origin));
-  }
+  write_forms(
+      path, {[&] { return clump_html(clump, origin, execution); },
+             [&] { return clump_json(clump, origin); }, [&] { return clump_csv(clump, origin); }});
 }
 
 }  // namespace wscvt

@@ -6,12 +6,10 @@
 #include <filesystem>
 
 #include "wscvt/base/numbers.h"
-#include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/open_table.h"
 #include "wscvt/report/page_figures.h"
 
 namespace wscvt {
@@ -102,22 +100,14 @@ std::string parts_csv(const PartsResult& result, const ReportOrigin& origin) {
 }
 
 void check_parts_report(const std::string& path) {
-  if (report_format(path) == ReportFormat::Row) {
-    return check_table(path, parts_csv(PartsResult(), {}));
-  }
-  check_writable(path);
+  check_forms(path, [] { return parts_csv(PartsResult(), {}); });
 }
 
 void write_report(const std::string& path, const PartsResult& result, const ReportOrigin& origin,
                   const Execution& execution) {
-  switch (report_format(path)) {
-    case ReportFormat::Page:
-      return write_file(path, parts_html(result, origin, execution));
-    case ReportFormat::Document:
-      return write_file(path, parts_json(result, origin));
-    case ReportFormat::Row:
-      return append_to_table(path, parts_csv(result, origin));
-  }
+  write_forms(path, {[&] { return parts_html(result, origin, execution); },
+                     [&] { return parts_json(result, origin); },
+                     [&] { return parts_csv(result, origin); }});
 }
 
 }  // namespace wscvt

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
+#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 
@@ -203,8 +204,8 @@ MeshAttributes carried_attributes(const IndexedMesh& scan, const MeshAttributes&
     }
     return result;
   }
-  const FaceBoxes boxes(scan, execution, stage);
-  if (boxes.empty()) return result;
+  if (!has_area(scan)) return result;
+  const MeshDistance boxes(scan, execution, stage);
   const bool shows = shows_picture(attributes);
   if (!attributes.of_vertices.empty() || shows) {
     const std::vector<MeshPlace> places = boxes.nearest_places(mesh.points, execution);

@@ -12,7 +12,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/measures/face_boxes.h"
 #include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
@@ -23,61 +22,7 @@ constexpr std::size_t distance_block = 256;
 
 constexpr const char* distance_stage = "Measuring distances";
 
-void require_target_faces(const IndexedMesh& mesh) {
-  if (!mesh.triangles.empty()) return;
-  throw Error(ErrorCode::InvalidInput,
-              "The mesh has no faces, so no distance to it can be measured. Give a triangle mesh.");
-}
-
-void require_area(bool has_area) {
-  if (has_area) return;
-  throw Error(ErrorCode::InvalidInput,
-              "All faces of the mesh are degenerate, so no distance to it can be measured. Give a "
-              "mesh with area.");
-}
-
 }  // namespace
-
-MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution) {
-  require_target_faces(mesh);
-  boxes_ = std::make_unique<FaceBoxes>(mesh, execution, distance_stage);
-  require_area(!boxes_->empty());
-}
-
-MeshDistance::~MeshDistance() = default;
-MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
-MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
-
-double MeshDistance::distance(const Vector3& point) const { return boxes_->distance(point); }
-
-Vector3 MeshDistance::nearest_point(const Vector3& point) const {
-  return boxes_->nearest_point(point);
-}
-
-std::vector<MeshPlace> MeshDistance::nearest_places(const std::vector<Vector3>& points,
-                                                    const Execution& execution) const {
-  return boxes_->nearest_places(points, execution);
-}
-
-bool MeshDistance::contains(const Vector3& point) const {
-  return boxes_->faces_met(point) % 2 == 1;
-}
-
-std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
-                                            const Execution& execution) const {
-  return boxes_->distances(points, execution);
-}
-
-std::vector<double> MeshDistance::signed_distances(const std::vector<Vector3>& points,
-                                                   const Execution& execution) const {
-  std::vector<double> values = distances(points, execution);
-  execution.parallel_for(points.size(), distance_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (contains(points[i])) values[i] = -values[i];
-    }
-  });
-  return values;
-}
 
 void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities) {
   if (densities.empty() || densities.size() == mesh.points.size()) return;
@@ -231,8 +176,8 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
       few.points.push_back(mesh.points[v]);
     few.triangles.push_back({corner, corner + 1, corner + 2});
   }
-  const FaceBoxes boxes(few, execution, distance_stage);
-  if (boxes.empty()) return {};
+  if (!has_area(few)) return {};
+  const MeshDistance boxes(few, execution, distance_stage);
   SmallestSquares bounds;
   std::size_t near = 0;
   for (const Vector3& point : points) {
@@ -270,7 +215,6 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
 /// Returns the distances from points to a mesh. The way is chosen for few points and one use.
 std::vector<double> distances_to(const IndexedMesh& mesh, const std::vector<Vector3>& points,
                                  const Execution& execution) {
-  require_target_faces(mesh);
   execution.report(0.0, distance_stage);
   if (mesh.triangles.size() > 2 * first_faces_a_point * points.size()) {
     std::vector<double> distances = distances_to_many(mesh, points, execution);

@@ -2,54 +2,16 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
+#include "wscvt/measures/mesh_distance.h"
 
 namespace wscvt {
 
-class FaceBoxes;
 struct MeshPlace;
-
-/// Computes exact distances from points to a triangle mesh, with a tree of boxes. Const functions
-/// are thread-safe.
-class MeshDistance {
- public:
-  /// Copies the mesh data that it needs, about 150 bytes per face. Throws Error(InvalidInput) if
-  /// the mesh has no face with an area.
-  explicit MeshDistance(const IndexedMesh& mesh, const Execution& execution = Execution(1));
-  ~MeshDistance();
-  MeshDistance(MeshDistance&&) noexcept;
-  MeshDistance& operator=(MeshDistance&&) noexcept;
-
-  /// Returns the distance from `point` to the nearest point of the surface, >= 0; length.
-  double distance(const Vector3& point) const;
-
-  /// Returns the nearest point of the surface.
-  Vector3 nearest_point(const Vector3& point) const;
-
-  /// Returns the nearest places of the mesh, one per point.
-  std::vector<MeshPlace> nearest_places(const std::vector<Vector3>& points,
-                                        const Execution& execution) const;
-
-  /// Whether `point` is inside; the mesh must be closed. On the surface itself, either answer is
-  /// possible.
-  bool contains(const Vector3& point) const;
-
-  /// Computes `distance` for an array, on the threads of `execution`.
-  std::vector<double> distances(const std::vector<Vector3>& points,
-                                const Execution& execution) const;
-
-  /// As `distances`, with the sign of the side: positive outside of the mesh, which must be closed.
-  std::vector<double> signed_distances(const std::vector<Vector3>& points,
-                                       const Execution& execution) const;
-
- private:
-  std::unique_ptr<FaceBoxes> boxes_;
-};
 
 /// Sample points of the distances.
 struct DistanceOptions {

@@ -7,7 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_steps.h"
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 
 namespace wscvt {
 
@@ -45,7 +45,7 @@ struct TouchingPoints {
 
 /// Returns the points that a sphere nearly touches, weighted so that the bound near its centre is
 /// small: by Frank and Wolfe (1956), with steps towards the point that lowers it most.
-TouchingPoints touching_points(const FaceBoxes& boxes, const InscribedSphere& sphere) {
+TouchingPoints touching_points(const MeshDistance& boxes, const InscribedSphere& sphere) {
   constexpr double nearly = 1.0 + 2e-3;
   constexpr double balance = 20.0;  // of the mean against larger distances
   constexpr int steps = 200;
@@ -82,7 +82,7 @@ TouchingPoints touching_points(const FaceBoxes& boxes, const InscribedSphere& sp
 /// Finds nearest points for places near each other, from the few faces that can be nearest there.
 class NearbyFaces {
  public:
-  NearbyFaces(const FaceBoxes& boxes, std::size_t face) : boxes_(boxes), face_(face) {}
+  NearbyFaces(const MeshDistance& boxes, std::size_t face) : boxes_(boxes), face_(face) {}
 
   /// The next places must be within a few `step` of `place`.
   Vector3 nearest_point(const Vector3& place, double step) {
@@ -109,7 +109,7 @@ class NearbyFaces {
   }
 
  private:
-  const FaceBoxes& boxes_;
+  const MeshDistance& boxes_;
   std::size_t face_;
   Vector3 about_ = Vector3::Zero();
   double slack_ = 0.0;  ///< the faces are valid for places within this distance
@@ -117,7 +117,8 @@ class NearbyFaces {
 };
 
 /// Climbs away from the nearest surface point with shrinking steps. `face` is near the centre.
-void climb(const FaceBoxes& surface, std::size_t face, InscribedSphere& sphere, double first_step) {
+void climb(const MeshDistance& surface, std::size_t face, InscribedSphere& sphere,
+           double first_step) {
   NearbyFaces faces(surface, face);
   double step = std::min(first_step, 0.5 * sphere.radius);
   Vector3 touched = faces.nearest_point(sphere.centre, step);
@@ -140,7 +141,7 @@ void climb(const FaceBoxes& surface, std::size_t face, InscribedSphere& sphere, 
 /// The branch-and-bound search.
 class SphereSearch {
  public:
-  explicit SphereSearch(const FaceBoxes& surface) : surface_(surface) {}
+  explicit SphereSearch(const MeshDistance& surface) : surface_(surface) {}
 
   void begin(const Vector3& centre, double half_edge) {
     Cell root;
@@ -231,7 +232,7 @@ class SphereSearch {
     if (!is_settled(cell)) open_.push(cell);
   }
 
-  const FaceBoxes& surface_;
+  const MeshDistance& surface_;
   InscribedSphere best_;
   std::vector<TouchingPoints> touching_;
   std::priority_queue<Cell> open_;
@@ -244,12 +245,12 @@ class SphereSearch {
 InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Execution& execution) {
   constexpr const char* stage = "Fitting the inscribed sphere";
   execution.report(0.0, stage);
-  const FaceBoxes surface(mesh, execution, "Measuring distances");
-  if (surface.empty()) {
+  if (!has_area(mesh)) {
     throw Error(ErrorCode::InvalidInput,
                 "The mesh has no faces with an area, so no sphere fits into it. Give a closed mesh "
                 "that encloses a volume.");
   }
+  const MeshDistance surface(mesh, execution);
   Vector3 lower = mesh.points[mesh.triangles.front()[0]];
   Vector3 upper = lower;
   for (const Triangle& t : mesh.triangles) {

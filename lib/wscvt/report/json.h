@@ -3,9 +3,11 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/option.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
@@ -27,6 +29,27 @@ Json json_of(const Statistics& statistics);
 Json json_of(const MeshQuality& quality);
 Json json_of(const OneSidedDistance& distance);
 Json json_of(const MassProperties& mass);
+
+/// Options with their command-line names and values, for the functions that visit options.
+/// Integers stay integers.
+class OptionsJson {
+ public:
+  template <class Number>
+  void operator()(const Number& value, const NumberOption<Number>& option) {
+    options_[std::string(option.key)] = value;
+  }
+  void operator()(const bool& value, const FlagOption& option) {
+    options_[std::string(option.key)] = value;
+  }
+  template <class Enumeration>
+  void operator()(const Enumeration& value) {
+    options_[std::string(EnumerationTable<Enumeration>::key)] = key_of(value);
+  }
+  Json take() { return std::move(options_); }
+
+ private:
+  Json options_ = Json::object();
+};
 
 /// Every option with the name and value of the command line.
 Json json_of(const RemeshOptions& options);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -90,12 +91,28 @@ const std::vector<std::string>& report_endings();
 /// for any other.
 ReportFormat report_format(const std::string& path);
 
+/// The forms of a report, each made when it is written.
+struct ReportForms {
+  std::function<std::string()> page;
+  std::function<std::string()> document;
+  std::function<std::string()> row;  ///< CSV with a header and a row
+};
+
+/// Writes the form for the file's name. Page and document replace the file, completely or not at
+/// all; the row is appended to a table (see append_to_table). Throws the errors of report_format,
+/// write_file and append_to_table.
+void write_forms(const std::string& path, const ReportForms& forms);
+
+/// Checks before the work that write_forms can write. `row` may have any numbers. Throws
+/// Error(InvalidInput) for another ending or a table with other columns, Error(InputOutput) if the
+/// file cannot be written.
+void check_forms(const std::string& path, const std::function<std::string()>& row);
+
 /// Whether a remesh's report of that name shows the scan. Only an HTML report does. Throws like
 /// report_format.
 bool shows_scan(const std::string& path);
 
-/// Checks before the work that the report can be written. Throws Error(InvalidInput) for another
-/// ending or a table with other columns, Error(InputOutput) if the file cannot be written.
+/// Checks before the work that the report can be written. Throws as check_forms.
 void check_remesh_report(const std::string& path);
 
 /// Like check_remesh_report, for a report of descriptors, whose tables have more columns with a
@@ -103,9 +120,9 @@ void check_remesh_report(const std::string& path);
 void check_descriptor_report(const std::string& path, bool with_reference,
                              bool with_resolution = false);
 
-/// Writes the report in the format of the file's name. report_html and report_json replace the
-/// file, completely or not at all; report_csv appends a row to a table (see append_to_table). Only
-/// the HTML report uses the result's repaired_scan. Throws the errors of these functions.
+/// Writes the report in the format of the file's name (see write_forms): report_html, report_json
+/// or report_csv. Only the HTML report uses the result's repaired_scan. Throws the errors of these
+/// functions.
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
                   const Execution& execution);
 

@@ -28,11 +28,6 @@ std::string example_csv(bool with_reference, bool with_resolution) {
   return descriptor_csv(measures, {});
 }
 
-void check(const std::string& path, const std::string& csv) {
-  if (report_format(path) == ReportFormat::Row) return check_table(path, csv);
-  check_writable(path);
-}
-
 }  // namespace
 
 const std::vector<std::string>& report_endings() {
@@ -52,34 +47,42 @@ ReportFormat report_format(const std::string& path) {
 
 bool shows_scan(const std::string& path) { return report_format(path) == ReportFormat::Page; }
 
-void check_remesh_report(const std::string& path) { check(path, report_csv(RemeshResult(), {})); }
+void write_forms(const std::string& path, const ReportForms& forms) {
+  switch (report_format(path)) {
+    case ReportFormat::Page:
+      return write_file(path, forms.page());
+    case ReportFormat::Document:
+      return write_file(path, forms.document());
+    case ReportFormat::Row:
+      return append_to_table(path, forms.row());
+  }
+}
+
+void check_forms(const std::string& path, const std::function<std::string()>& row) {
+  if (report_format(path) == ReportFormat::Row) return check_table(path, row());
+  check_writable(path);
+}
+
+void check_remesh_report(const std::string& path) {
+  check_forms(path, [] { return report_csv(RemeshResult()); });
+}
 
 void check_descriptor_report(const std::string& path, bool with_reference, bool with_resolution) {
-  check(path, example_csv(with_reference, with_resolution));
+  check_forms(path, [&] { return example_csv(with_reference, with_resolution); });
 }
 
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
                   const Execution& execution) {
-  switch (report_format(path)) {
-    case ReportFormat::Page:
-      return write_file(path, report_html(result, origin, execution));
-    case ReportFormat::Document:
-      return write_file(path, report_json(result, origin));
-    case ReportFormat::Row:
-      return append_to_table(path, report_csv(result, origin));
-  }
+  write_forms(path, {[&] { return report_html(result, origin, execution); },
+                     [&] { return report_json(result, origin); },
+                     [&] { return report_csv(result, origin); }});
 }
 
 void write_report(const std::string& path, const GrainMeasures& measures,
                   const ReportOrigin& origin, const Execution& execution) {
-  switch (report_format(path)) {
-    case ReportFormat::Page:
-      return write_file(path, descriptor_html(measures, origin, execution));
-    case ReportFormat::Document:
-      return write_file(path, descriptor_json(measures, origin));
-    case ReportFormat::Row:
-      return append_to_table(path, descriptor_csv(measures, origin));
-  }
+  write_forms(path, {[&] { return descriptor_html(measures, origin, execution); },
+                     [&] { return descriptor_json(measures, origin); },
+                     [&] { return descriptor_csv(measures, origin); }});
 }
 
 std::string made_by() { return std::string("wscvt ") + version(); }

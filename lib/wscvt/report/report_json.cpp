@@ -15,26 +15,6 @@ namespace {
 // Functions of this name in here would hide the overload for vectors.
 using wscvt::json_of;
 
-/// Options with their command-line names and values. Integers stay integers.
-class OptionsToJson {
- public:
-  template <class Number>
-  void operator()(const Number& value, const NumberOption<Number>& option) {
-    options_[std::string(option.key)] = value;
-  }
-  void operator()(const bool& value, const FlagOption& option) {
-    options_[std::string(option.key)] = value;
-  }
-  template <class Enumeration>
-  void operator()(const Enumeration& value) {
-    options_[std::string(EnumerationTable<Enumeration>::key)] = key_of(value);
-  }
-  Json take() { return std::move(options_); }
-
- private:
-  Json options_ = Json::object();
-};
-
 Json json_of(const MeshCheckReport& input) {
   return {{"vertices", input.input_vertices},
           {"faces", input.input_faces},
@@ -227,11 +207,11 @@ Json json_of(const RemeshOptions& options) {
   // All keys of both methods, in one order. Keys of the other method stay null.
   const RemeshOptions on_scan;
   const AsPublishedOptions published;
-  OptionsToJson keys;
+  OptionsJson keys;
   for_each_option(on_scan, keys);
   for_each_method_option(published, keys);
   Json json = nulled(keys.take());
-  OptionsToJson values;
+  OptionsJson values;
   for_each_option(options, values);
   json.update(values.take());
   return json;

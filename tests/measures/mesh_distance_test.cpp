@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -29,9 +29,9 @@ std::vector<Vector3> points_about(const IndexedMesh& mesh, std::uint64_t seed) {
   return points;
 }
 
-TEST(FaceBoxes, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome) {
+TEST(MeshTree, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome) {
   const IndexedMesh mesh = test::lumpy(3);
-  const FaceBoxes boxes(mesh, Execution(1), "");
+  const MeshDistance boxes(mesh, Execution(1), "");
   const std::vector<Vector3> points = points_about(mesh, 8);
   const std::vector<double> distances = boxes.distances(points, Execution(1));
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -53,9 +53,9 @@ TEST(FaceBoxes, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome)
   EXPECT_EQ(boxes.distances(points, Execution(3)), distances);
 }
 
-TEST(FaceBoxes, SearchFromAnyFaceAndEndEarlyWhereThatIsEnough) {
+TEST(MeshTree, SearchFromAnyFaceAndEndEarlyWhereThatIsEnough) {
   const IndexedMesh mesh = test::lumpy(3);
-  const FaceBoxes boxes(mesh, Execution(1), "");
+  const MeshDistance boxes(mesh, Execution(1), "");
   std::size_t start = 0;
   for (const Vector3& point : points_about(mesh, 10)) {
     const double distance = boxes.distance(point);
@@ -74,19 +74,19 @@ TEST(FaceBoxes, SearchFromAnyFaceAndEndEarlyWhereThatIsEnough) {
   }
 }
 
-TEST(FaceBoxes, AreTheSameOnAnyNumberOfThreads) {
+TEST(MeshTree, AreTheSameOnAnyNumberOfThreads) {
   // 81,920 faces: more than one part.
   const IndexedMesh mesh = test::lumpy(6);
-  const FaceBoxes one(mesh, Execution(1), "");
-  const FaceBoxes three(mesh, Execution(3), "");
+  const MeshDistance one(mesh, Execution(1), "");
+  const MeshDistance three(mesh, Execution(3), "");
   for (const Vector3& point : points_about(mesh, 9)) {
     EXPECT_EQ(one.nearest_point(point), three.nearest_point(point));
   }
 }
 
-TEST(FaceBoxes, AreMetAnOddNumberOfTimesFromInside) {
+TEST(MeshTree, AreMetAnOddNumberOfTimesFromInside) {
   const IndexedMesh mesh = test::lumpy(4);
-  const FaceBoxes boxes(mesh, Execution(1), "");
+  const MeshDistance boxes(mesh, Execution(1), "");
   for (const Vector3& point : points_about(mesh, 10)) {
     // Seen from inside, and only from there, the faces' solid angles fill the sphere.
     double angle = 0.0;
@@ -99,26 +99,26 @@ TEST(FaceBoxes, AreMetAnOddNumberOfTimesFromInside) {
   }
 }
 
-TEST(FaceBoxes, FarFromTheOriginTheyAreAsGood) {
+TEST(MeshTree, FarFromTheOriginTheyAreAsGood) {
   const Vector3 shift(1e6, 1e6, 1e6);
-  const FaceBoxes boxes(test::transformed(test::box(1, 1, 1), Eigen::Matrix3d::Identity(), shift),
-                        Execution(1), "");
+  const MeshDistance boxes(
+      test::transformed(test::box(1, 1, 1), Eigen::Matrix3d::Identity(), shift), Execution(1), "");
   EXPECT_NEAR(boxes.distance(shift + Vector3(0.125, 0.0, 0.0)), 0.375, 1e-15);
 }
 
-TEST(FaceBoxes, PassOverFacesWithoutArea) {
+TEST(MeshTree, PassOverFacesWithoutArea) {
   IndexedMesh mesh = test::box(1, 1, 1);
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
-  const FaceBoxes boxes(mesh, Execution(1), "");
+  const MeshDistance boxes(mesh, Execution(1), "");
   EXPECT_NEAR(boxes.distance({0, 0, 2}), 1.5, 1e-15);
   mesh.triangles.resize(1);
-  EXPECT_TRUE(FaceBoxes(mesh, Execution(1), "").empty());
+  EXPECT_ERROR(MeshDistance(mesh, Execution(1), ""), InvalidInput);
   EXPECT_ERROR(rms_distance(test::box(1, 1, 1), mesh, 10, Execution(1)), InvalidInput);
 }
 
-TEST(FaceBoxes, CanBeCancelledWhileTheyAreBuilt) {
+TEST(MeshTree, CanBeCancelledWhileTheyAreBuilt) {
   const Execution execution(1, [](double, const std::string&) { return false; });
-  EXPECT_ERROR(FaceBoxes(test::sphere(5), execution, ""), Cancelled);
+  EXPECT_ERROR(MeshDistance(test::sphere(5), execution, ""), Cancelled);
 }
 
 }  // namespace

@@ -10,34 +10,44 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 
-/// The faces of a mesh in a binary tree of boxes, for the distances of many points. CGAL's AABB
-/// tree takes twice the time for the distances of a batch's grains, from the same starts, and four
-/// times the time to build over two million faces. This tree stores nodes in the order of the
-/// search, and builds parts at the same time. Const functions are thread-safe.
-class FaceBoxes {
+struct MeshPlace;
+
+/// Whether a face of the mesh has an area.
+bool has_area(const IndexedMesh& mesh);
+
+/// Computes exact distances from points to a triangle mesh, with its faces in a binary tree of
+/// boxes. CGAL's AABB tree takes twice the time for the distances of a batch's grains, from the
+/// same starts, and four times the time to build over two million faces. This tree stores nodes in
+/// the order of the search, and builds parts at the same time. Const functions are thread-safe.
+class MeshDistance {
  public:
   /// Copies the data of the faces that have an area, about 150 bytes per face. Reports `stage`. The
-  /// tree does not depend on the number of threads.
-  FaceBoxes(const IndexedMesh& mesh, const Execution& execution, const std::string& stage);
+  /// tree does not depend on the number of threads. Throws Error(InvalidInput) if no face of the
+  /// mesh has an area, and Error(Cancelled).
+  explicit MeshDistance(const IndexedMesh& mesh, const Execution& execution = Execution(1),
+                        const std::string& stage = "Measuring distances");
 
-  /// Whether no face has an area.
-  bool empty() const { return faces_.empty(); }
-
-  /// Returns the nearest point of the surface. This and the functions below need faces; this is not
-  /// checked.
+  /// Returns the nearest point of the surface.
   Vector3 nearest_point(const Vector3& point) const;
 
   /// Returns the distance to the nearest point of the surface, >= 0; length.
   double distance(const Vector3& point) const;
 
-  /// Returns the distances of many points. Fastest if successive points are neighbours on a
-  /// surface.
+  /// Returns the distances of many points, on the threads of `execution`. Fastest if successive
+  /// points are neighbours on a surface.
   std::vector<double> distances(const std::vector<Vector3>& points,
                                 const Execution& execution) const;
+
+  /// As `distances`, with the sign of the side: positive outside of the mesh, which must be closed.
+  std::vector<double> signed_distances(const std::vector<Vector3>& points,
+                                       const Execution& execution) const;
+
+  /// Whether `point` is inside; the mesh must be closed. On the surface itself, either answer is
+  /// possible.
+  bool contains(const Vector3& point) const { return faces_met(point) % 2 == 1; }
 
   /// Returns the square of `distance`, for a point with a near face from an earlier search. The
   /// search starts at `face`, counted from 0 in the order of this tree, and sets it to the nearest

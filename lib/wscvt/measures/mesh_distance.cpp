@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/measures/face_boxes.h"
+#include "wscvt/measures/mesh_distance.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
@@ -9,7 +9,9 @@
 #include <limits>
 #include <utility>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 
@@ -35,9 +37,9 @@ double squared_distance_to_face(const std::array<Vector3, 3>& corners, const Vec
 /// Distributes faces by their centroids, half to each child along the axis of largest spread. Every
 /// node's index follows from the number of faces before it, so parts of the tree can be built in
 /// any order.
-class FaceBoxes::Builder {
+class MeshDistance::Builder {
  public:
-  Builder(const IndexedMesh& mesh, FaceBoxes& boxes, const Execution& execution,
+  Builder(const IndexedMesh& mesh, MeshDistance& boxes, const Execution& execution,
           const std::string& stage)
       : mesh_(mesh), boxes_(boxes) {
     constexpr std::size_t faces_a_report = 1 << 18;  // some hundredths of a second
@@ -154,18 +156,32 @@ class FaceBoxes::Builder {
   }
 
   const IndexedMesh& mesh_;
-  FaceBoxes& boxes_;
+  MeshDistance& boxes_;
   std::vector<Middle> middles_;  ///< of the faces with area
   std::vector<Part> parts_;
   std::vector<Part> upper_;
 };
 
-FaceBoxes::FaceBoxes(const IndexedMesh& mesh, const Execution& execution,
-                     const std::string& stage) {
-  Builder(mesh, *this, execution, stage).run(execution, stage);
+bool has_area(const IndexedMesh& mesh) {
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+    return triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) > 0.0;
+  });
 }
 
-std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
+MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution,
+                           const std::string& stage) {
+  if (mesh.triangles.empty()) {
+    refuse("The mesh has no faces, so no distance to it can be measured. Give a triangle mesh.");
+  }
+  Builder(mesh, *this, execution, stage).run(execution, stage);
+  if (faces_.empty()) {
+    refuse(
+        "All faces of the mesh are degenerate, so no distance to it can be measured. Give a "
+        "mesh with area.");
+  }
+}
+
+std::size_t MeshDistance::nearby_face(const Vector3& point) const {
   std::size_t i = 0;
   while (nodes_[i].faces < 0) {
     const std::size_t first = i + 1;
@@ -176,7 +192,8 @@ std::size_t FaceBoxes::nearby_face(const Vector3& point) const {
   return static_cast<std::size_t>(nodes_[i].faces);
 }
 
-double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, double enough) const {
+double MeshDistance::squared_distance(const Vector3& point, std::size_t& face,
+                                      double enough) const {
   double nearest = squared_distance_to_face(faces_[face], point);
   // Visits the nearer child first, because for a point far inside, many faces are nearly as far as
   // the nearest.
@@ -211,11 +228,11 @@ double FaceBoxes::squared_distance(const Vector3& point, std::size_t& face, doub
   return nearest;
 }
 
-Vector3 FaceBoxes::nearest_point_of(std::size_t face, const Vector3& point) const {
+Vector3 MeshDistance::nearest_point_of(std::size_t face, const Vector3& point) const {
   return point + nearest_of(faces_[face], point);
 }
 
-std::vector<std::size_t> FaceBoxes::faces_within(const Vector3& point, double distance) const {
+std::vector<std::size_t> MeshDistance::faces_within(const Vector3& point, double distance) const {
   std::vector<std::size_t> faces;
   const double square = distance * distance;
   for (std::size_t i = 0; i < nodes_.size();) {
@@ -233,19 +250,19 @@ std::vector<std::size_t> FaceBoxes::faces_within(const Vector3& point, double di
   return faces;
 }
 
-Vector3 FaceBoxes::nearest_point(const Vector3& point) const {
+Vector3 MeshDistance::nearest_point(const Vector3& point) const {
   std::size_t face = nearby_face(point);
   squared_distance(point, face, 0.0);
   return nearest_point_of(face, point);
 }
 
-double FaceBoxes::distance(const Vector3& point) const {
+double MeshDistance::distance(const Vector3& point) const {
   std::size_t face = nearby_face(point);
   return std::sqrt(squared_distance(point, face, 0.0));
 }
 
-std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
-                                         const Execution& execution) const {
+std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
+                                            const Execution& execution) const {
   std::vector<double> result(points.size());
   execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
@@ -255,8 +272,19 @@ std::vector<double> FaceBoxes::distances(const std::vector<Vector3>& points,
   return result;
 }
 
-std::vector<MeshPlace> FaceBoxes::nearest_places(const std::vector<Vector3>& points,
-                                                 const Execution& execution) const {
+std::vector<double> MeshDistance::signed_distances(const std::vector<Vector3>& points,
+                                                   const Execution& execution) const {
+  std::vector<double> values = distances(points, execution);
+  execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (contains(points[i])) values[i] = -values[i];
+    }
+  });
+  return values;
+}
+
+std::vector<MeshPlace> MeshDistance::nearest_places(const std::vector<Vector3>& points,
+                                                    const Execution& execution) const {
   std::vector<MeshPlace> places(points.size());
   execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
     std::size_t face = 0;
@@ -269,7 +297,7 @@ std::vector<MeshPlace> FaceBoxes::nearest_places(const std::vector<Vector3>& poi
   return places;
 }
 
-std::size_t FaceBoxes::faces_met(const Vector3& point) const {
+std::size_t MeshDistance::faces_met(const Vector3& point) const {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto local = [&](const Vector3& p) { return Kernel::Point_3(p.x(), p.y(), p.z()); };
   // An irregular direction avoids hits on edges and vertices. No component is 0.
