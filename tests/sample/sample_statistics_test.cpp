@@ -172,9 +172,9 @@ TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
 
 /// 602 grains, so that sums have several blocks; some without a value, some without a mass.
 GrainSample gapped_sample() {
-  GrainTable table = table_of(uniform(602, 21).array() + 0.5);
-  table.values(601, 3) = table.values(5, 3) = no_value;
-  table.values(600, 1) = table.values(17, 1) = no_value;
+  GrainTable table = table_of(uniform(604, 21).array() + 0.5);
+  table.values(603, 3) = table.values(5, 3) = no_value;
+  table.values(600, 1) = table.values(17, 1) = no_value;  // no mass: left out
   table.values.col(3).segment(100, 40).setConstant(0.75);
   return sample_of(table, {});
 }

@@ -166,8 +166,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
   add_typed(app, "--smallest",
             [&arguments](std::string_view text) { arguments.smallest = std::string(text); })
       ->description(
-          "Smallest grain: voxels of a volume, or % of a mesh's largest body, as 0.1%. "
-          "Smaller ones, and open surfaces, are only listed. Default: 100, or 0%")
+          "Smallest grain: voxels of a volume, or % of a mesh's largest body. Smaller ones, and "
+          "open surfaces, are only listed. Default: 100, or 0%")
       ->type_name("N");
   app.add_flag("--describe", arguments.job.describe,
                help_of(arguments.job.describe, describe_option));

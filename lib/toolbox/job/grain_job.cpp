@@ -127,13 +127,18 @@ class ScanTimes {
     }
   }
 
+  /// Whether the file is older than the scan of the grain.
+  bool is_older(std::size_t grain, const std::string& file) const {
+    std::error_code missing;
+    const fs::file_time_type written = fs::last_write_time(file, missing);
+    return !missing && written < times_[grain];
+  }
+
   /// Whether the file is missing, empty, or older than the scan of the grain.
   bool is_old(std::size_t grain, const std::string& file) const {
     std::error_code missing;
     const std::uintmax_t size = fs::file_size(file, missing);
-    if (missing || size == 0) return true;
-    const fs::file_time_type written = fs::last_write_time(file, missing);
-    return missing || written < times_[grain];
+    return missing || size == 0 || is_older(grain, file);
   }
 
  private:
@@ -395,8 +400,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   std::vector<std::size_t> wanted;
   std::vector<bool> is_of_part(names.size(), false);
   for (std::size_t k = tables.rows(); k < names.size(); ++k) {
-    is_of_part[k] = parts.has(names[k]) && (!parts.row(names[k]).error.empty() ||
-                                            !scans.is_old(k, folders.front().file_of(names[k])));
+    is_of_part[k] = parts.has(names[k]) && !scans.is_older(k, folders.front().file_of(names[k]));
     if (!is_of_part[k]) wanted.push_back(k);
   }
   grains.want(wanted);

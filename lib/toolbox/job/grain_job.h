@@ -64,8 +64,8 @@ struct JobTable {
 /// Work on each grain of a source: files for each grain, and tables with a row for each grain. The
 /// bytes of the files do not depend on the number of threads. A job that was interrupted continues
 /// after the last grain of its tables, or before the first grain whose file is missing, or older
-/// than its scan: a scan that was replaced is worked on again. The job of a whole sample takes over the rows of its parts,
-/// if they are in its folder, and makes only the other grains.
+/// than its scan: a scan that was replaced is worked on again. The job of a whole sample takes over
+/// the rows of its parts, if they are in its folder, and makes only the other grains.
 struct GrainJob {
   std::string folder;
   Shard shard;         ///< of which the source has the grains

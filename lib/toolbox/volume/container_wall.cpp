@@ -206,9 +206,12 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
   });
   const bool crosses = std::any_of(reaches.begin(), reaches.end(),
                                    [](const auto& ends) { return ends[0] && ends[1]; });
-  // A grain may be hollow: it lies within the volume, and holds little.
+  // A grain may be hollow: it lies within the volume, and holds little. What fills most of the
+  // volume is no wall but the space between dark grains.
   const std::uint64_t held = material - wall.voxels;
-  if (held == 0 || (!crosses && (must_cross || 2 * held < wall.voxels))) return {};
+  if (held == 0 || 2 * wall.voxels > mask.size() ||
+      (!crosses && (must_cross || 2 * held < wall.voxels)))
+    return {};
   return wall;
 }
 

@@ -206,6 +206,22 @@ void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts)
   }
 }
 
+/// What is material but not in the labels.
+void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  if (segmentation.wall > 0) {
+    doubts.push_back("A smooth wall of one thickness, " +
+                     format_percent(share_of(segmentation.wall, segmentation.voxels)) +
+                     " of the volume, lies around the grains or beside them: it is taken for a "
+                     "container, and left out. "
+                     "Grains that touch it are parted from it at its thickness.");
+  }
+  if (segmentation.cut > 0) {
+    doubts.push_back(std::to_string(segmentation.cut) +
+                     (segmentation.cut == 1 ? " grain touches " : " grains touch ") +
+                     "voxels that were not scanned and may be cut. The labels do not have them.");
+  }
+}
+
 }  // namespace
 
 std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
@@ -261,18 +277,7 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      "outlines are rough. If they are wrong, give " +
                      mention("threshold") + ".");
   }
-  if (segmentation.wall > 0) {
-    doubts.push_back("A smooth wall of one thickness, " +
-                     format_percent(share_of(segmentation.wall, segmentation.voxels)) +
-                     " of the volume, lies around the grains or beside them: it is taken for a "
-                     "container, and left out. "
-                     "Grains that touch it are parted from it at its thickness.");
-  }
-  if (segmentation.cut > 0) {
-    doubts.push_back(std::to_string(segmentation.cut) +
-                     (segmentation.cut == 1 ? " grain touches " : " grains touch ") +
-                     "voxels that were not scanned and may be cut. The labels do not have them.");
-  }
+  add_left_out(segmentation, doubts);
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                      " of the material is in parts that are too small, red in the slices: noise, "

@@ -97,8 +97,9 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
 /// that can be distinguished from sharper corners, to within 0.03 R, is s / 4 (measured on cubes of
 /// edge radius 0.02 to 1 at 1,000 to 20,000 vertices). If s / R exceeds 1, roundness is NaN.
 /// Measures at most 5,000 places, chosen at random with a fixed seed, one in each equal part of the
-/// area. On seven scans this changes roundness by at most 0.006. The order of the faces and vertices
-/// does not matter; rotations of three scans changed it by at most 0.009. Works on any closed body.
+/// area. On seven scans this changes roundness by at most 0.006. The order of the faces and
+/// vertices does not matter; rotations of three scans changed it by at most 0.009. Works on any
+/// closed body.
 ///
 /// Throws Error(InvalidInput) if the inscribed radius or the ball is not positive.
 Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, double ball,

@@ -68,8 +68,7 @@ void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
   }
   if (handles.kept > 0) {
     warnings.push_back("The grain has " + std::to_string(handles.kept) +
-                       (handles.kept == 1 ? " handle" : " handles") +
-                       " (tunnels through it).");
+                       (handles.kept == 1 ? " handle" : " handles") + " (tunnels through it).");
   }
 }
 
