@@ -52,6 +52,19 @@ TEST(GrainMeasures, OfASphereHaveNothingToRemark) {
   }
 }
 
+// The steps of single precision far from the origin look like those of voxels.
+TEST(GrainMeasures, TellStepsOfSinglePrecisionFromThoseOfVoxels) {
+  IndexedMesh ball = test::sphere(5);
+  for (Vector3& p : ball.points) {
+    p += Vector3(500000.3, 4200000.7, 812.0);
+    p = p.cast<float>().cast<double>();
+  }
+  const std::vector<Sentence> told =
+      remarks(measure_grain({"far", ball}, std::nullopt, DetailedOptions(), Execution(1)));
+  EXPECT_EQ(count_of(told, "so far from the origin"), 1);
+  EXPECT_EQ(count_of(told, "voxels"), 0);
+}
+
 TEST(GrainMeasures, TellOfPartsLeftOutAndCentroidsOutside) {
   const IndexedMesh crumb =
       test::transformed(test::sphere(2), 0.1 * Eigen::Matrix3d::Identity(), Vector3(5, 0, 0));

@@ -276,6 +276,18 @@ TEST(OnScan, WhatIsNotAccurateIsSaidWithWhatHelps) {
   EXPECT_FALSE(is_inaccurate(remesh(box, options_of(800))));
 }
 
+TEST(OnScan, AContactFitThatBlowsUpAThinGrainIsTold) {
+  const IndexedMesh plate = test::subdivided(test::box(3.0, 2.7, 0.1), 5);
+  OnScanOptions contacts;
+  contacts.placement = ScanPlacement::ContactFit;
+  const RemeshResult few = remesh(plate, options_of(150, contacts));
+  ASSERT_GT(few.remesh.volume, 1.2 * few.scan.volume);
+  EXPECT_TRUE(says(few.warnings, "The contact fit makes the volume "));
+  // Each of the two ways helps.
+  EXPECT_FALSE(says(remesh(plate, options_of(1000, contacts)).warnings, "contact fit makes"));
+  EXPECT_NEAR(remesh(plate, options_of(150)).remesh.volume / few.scan.volume, 1.0, 1e-9);
+}
+
 TEST(OnScan, TheDistanceToldIsTheLargerOfBothWaysWithTheLargestBesideIt) {
   const IndexedMesh mushroom = body("mushroom");
   RemeshOptions options = options_of(200);

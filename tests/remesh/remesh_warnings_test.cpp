@@ -208,7 +208,7 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
          r.remesh.area = 9.5;
          r.input.input_vertices = 0;  // a formula
        },
-       {}},
+       {"area error -5 %. "}},
       {[](RemeshResult& r) {
          r.rms_distance = 1.0;
          std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;

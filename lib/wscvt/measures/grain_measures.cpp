@@ -6,6 +6,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/repair/coordinates.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/scan_advice.h"
 #include "wscvt/surface/crossing_pairs.h"
@@ -92,7 +93,11 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
                         grain.name + "' was measured.");
   }
   const MeshCheckReport& report = grain.checked.report;
-  if (grain.texture.kind != Texture::None) {
+  // Its steps would be taken for voxels.
+  const std::string far = single_precision_warning(grain.checked.mesh);
+  if (!far.empty()) {
+    sentences.push_back(far);
+  } else if (grain.texture.kind != Texture::None) {
     sentences.push_back(texture_sentence(grain.texture, "'" + grain.name + "'"));
   } else if (report.has_voxel_steps) {
     sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));

@@ -178,8 +178,22 @@ Sentence closer_by(const RemeshOptions& options) {
          ": with as many nodes, it usually halves the rms distance.";
 }
 
+/// Warns of a contact fit that blows up a grain. Nodes go outwards by the sagitta of an edge: on
+/// ordinary grains of 100 nodes this adds 10 % of volume, on a plate of 30:1 with 150 nodes 89 %.
+void warn_of_contact_fit(const RemeshResult& result, Sentences& warnings) {
+  constexpr double much = 0.2;
+  const auto* on_scan = std::get_if<OnScanOptions>(&result.options.method);
+  if (on_scan == nullptr || on_scan->placement != ScanPlacement::ContactFit) return;
+  const double volume = result.remesh.volume / result.scan.volume - 1.0;
+  if (!(volume > much)) return;
+  warnings.push_back("The contact fit makes the volume " + format_percent(volume) +
+                     " larger: the grain is thin for the edges of " +
+                     std::to_string(result.mesh.points.size()) + " nodes. Use more nodes, or " +
+                     mention(ScanPlacement::Fitted) + ", which keeps the volume.");
+}
+
 void warn_of_distance(const RemeshResult& result, Sentences& warnings) {
-  if (result.input.input_vertices == 0 || !is_inaccurate(result)) return;
+  if (!is_inaccurate(result)) return;
   const double area = result.remesh.area / result.scan.area - 1.0;
   warnings.push_back("The remesh is not accurate: rms distance " +
                      format_percent(result.rms_distance / result.input.equivalent_radius) +
@@ -281,6 +295,7 @@ std::vector<Sentence> remesh_warnings(const RemeshResult& result, const std::str
   warn_of_detail(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
+  warn_of_contact_fit(result, warnings);
   const std::string clipped = sdq_clip_sentence("the scan", result.scan);
   if (!clipped.empty()) warnings.push_back(clipped);
   warn_of_self_intersections(result, warnings);
