@@ -8,6 +8,7 @@
 #include "toolbox/convex/convex_parts.h"
 #include "toolbox/convex/parts.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
