@@ -224,6 +224,36 @@ TEST_F(Job, WorksAgainOnScansThatAreNewerThanTheirResults) {
   }
 }
 
+TEST_F(Job, TakesNoRowsOfPartsThatAreOlderThanTheirScans) {
+  fs::create_directories(folder_ / "scans");
+  for (int k = 0; k < 10; ++k) {
+    write_file((folder_ / "scans" / std::to_string(k)).string(), "a scan");
+  }
+  std::atomic<int> made{0};
+  const auto run = [&](int index, bool is_repaired) {
+    GrainJob job = number_job("out");
+    if (index > 0) job.shard = {index, 2};
+    made = 0;
+    job.make = [&made, is_repaired, make = job.make](GrainAtWork& grain) {
+      ++made;
+      if (grain.name == "folder/grain2.ply" && !is_repaired) {
+        throw Error(ErrorCode::InvalidInput, "No grain.");
+      }
+      return make(grain);
+    };
+    JoinedGrains part(job.shard);
+    part.add(std::make_unique<Points>(10, folder_ / "scans"));
+    return run_job(job, part, {1}).failed;
+  };
+  EXPECT_EQ(run(1, false) + run(2, false), 1U);
+  for (const char* scan : {"2", "6"}) {  // one that failed, and one that was made
+    fs::last_write_time(folder_ / "scans" / scan,
+                        fs::file_time_type::clock::now() + std::chrono::seconds(1));
+  }
+  EXPECT_EQ(run(0, true), 0U);
+  EXPECT_EQ(made, 2);
+}
+
 TEST_F(Job, PartsAreTheWhole) {
   Points grains(40);
   run_job(number_job("whole"), grains, {2});

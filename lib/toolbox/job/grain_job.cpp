@@ -183,6 +183,11 @@ class PartRows {
   /// Whether a part has made the grain.
   bool has(const std::string& grain) const { return places_of(grain) != nullptr; }
 
+  /// Returns the table with the row of a grain that a part has made.
+  const std::string& table(const std::string& grain) const {
+    return files_[places_of(grain)->front().file];
+  }
+
   /// Returns the row of a grain that a part has made.
   GrainRow row(const std::string& grain) const {
     GrainRow row;
@@ -400,7 +405,9 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   std::vector<std::size_t> wanted;
   std::vector<bool> is_of_part(names.size(), false);
   for (std::size_t k = tables.rows(); k < names.size(); ++k) {
-    is_of_part[k] = parts.has(names[k]) && !scans.is_older(k, folders.front().file_of(names[k]));
+    // A grain that failed has no file: the part's table tells the time.
+    is_of_part[k] = parts.has(names[k]) && !scans.is_older(k, folders.front().file_of(names[k])) &&
+                    !scans.is_older(k, parts.table(names[k]));
     if (!is_of_part[k]) wanted.push_back(k);
   }
   grains.want(wanted);
