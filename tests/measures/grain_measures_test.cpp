@@ -61,7 +61,7 @@ TEST(GrainMeasures, TellStepsOfSinglePrecisionFromThoseOfVoxels) {
   }
   const std::vector<Sentence> told =
       remarks(measure_grain({"far", ball}, std::nullopt, DetailedOptions(), Execution(1)));
-  EXPECT_EQ(count_of(told, "so far from the origin"), 1);
+  EXPECT_EQ(count_of(told, "'far' is so far from the origin"), 1);
   EXPECT_EQ(count_of(told, "voxels"), 0);
 }
 

@@ -33,7 +33,7 @@ TEST(Coordinates, SinglePrecisionFarAwayIsNoticed) {
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 0.0)), "");
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3(1000, 0, 0), 0.0)), "");
   const std::string far = precision_warning(rounded(mesh, Vector3(0, -1e6, 0), 0.0));
-  EXPECT_NE(far.find("Move the scan to the origin"), std::string::npos) << far;
+  EXPECT_NE(far.find("The scan is so far from the origin"), std::string::npos) << far;
   EXPECT_NE(far.find("at one point"), std::string::npos) << far;
   // The advice: moved first, or kept in double.
   IndexedMesh in_double = mesh;

@@ -94,7 +94,7 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
   }
   const MeshCheckReport& report = grain.checked.report;
   // Its steps would be taken for voxels.
-  const std::string far = single_precision_warning(grain.checked.mesh);
+  const std::string far = single_precision_warning(grain.checked.mesh, "'" + grain.name + "'");
   if (!far.empty()) {
     sentences.push_back(far);
   } else if (grain.texture.kind != Texture::None) {

@@ -91,23 +91,22 @@ std::string lost(std::size_t faces) {
 
 }  // namespace
 
-std::string single_precision_warning(const IndexedMesh& mesh) {
+std::string single_precision_warning(const IndexedMesh& mesh, const std::string& name) {
   if (!is_measurable(mesh)) return "";
   const double step = single_precision_step(mesh);
   if (step > coarse_step && all_coordinates(mesh, [](double value) {
         return static_cast<double>(static_cast<float>(value)) == value;
       })) {
-    return "The scan is so far from the origin that its coordinates, in single precision, have "
-           "steps of " +
+    return name +
+           " is so far from the origin that its coordinates, in single precision, have steps of " +
            format_percent(step) + " of the mean edge" + lost(collapsed_faces(mesh)) +
-           ". Move the scan to the origin before it is saved in single precision, or save it in "
-           "double.";
+           ". Move it to the origin before it is saved in single precision, or save it in double.";
   }
   return "";
 }
 
 std::string precision_warning(const IndexedMesh& mesh) {
-  const std::string far = single_precision_warning(mesh);
+  const std::string far = single_precision_warning(mesh, "The scan");
   if (!far.empty() || !is_measurable(mesh)) return far;
   const double edge = sampled_mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.

@@ -29,8 +29,8 @@ void check_scan_size(const Vector3& extents);
 std::string precision_warning(const IndexedMesh& mesh);
 
 /// Returns only the warning on coordinates in single precision far from the origin, or an empty
-/// text.
-std::string single_precision_warning(const IndexedMesh& mesh);
+/// text. It begins with the mesh's `name`, such as "The scan".
+std::string single_precision_warning(const IndexedMesh& mesh, const std::string& name);
 
 /// Drops the faces with a corner that is not finite. Returns their number. Later code need not
 /// check indices and corners: CGAL's trees of boxes do not terminate if a coordinate is NaN. Throws

@@ -346,7 +346,7 @@ void measure_closed(const IndexedMesh& mesh, const Execution& execution, MeshChe
   report.area = sums.area();
   if (!(report.volume > flat_limit * portable::pow(report.area, 1.5))) {
     // Far from the origin, single precision leaves only a few different positions.
-    const std::string precision = single_precision_warning(mesh);
+    const std::string precision = single_precision_warning(mesh, "The scan");
     if (!precision.empty()) refuse("The mesh encloses no volume. " + precision);
     refuse("The mesh encloses no volume: it is flat, with an area of " +
            format_number(report.area) + " and a volume of " + format_number(report.volume) +
