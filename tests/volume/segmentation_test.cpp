@@ -718,6 +718,17 @@ TEST_F(SegmentationOfAFile, DoubtsOneGrainAndDarkGrains) {
   EXPECT_TRUE(has(segmented(), "darker than the rest"));
 }
 
+// All sides are flat, and the block crosses the volume as a container does.
+TEST_F(SegmentationOfAFile, TakesNoSpaceBetweenDarkGrainsForAWall) {
+  made_ = MadeVolume({40, 24, 24});
+  made_.fill(200, [](const Vector3&) { return true; });
+  made_.fill_ball(50, {12, 12, 12}, 7.0);
+  made_.fill_ball(50, {28, 12, 12}, 7.0);
+  made_.at(0, 0, 0) = 201;  // not a mask
+  write_made();
+  EXPECT_EQ(segmented().wall, 0U);
+}
+
 TEST_F(SegmentationOfAFile, DoubtsLabels) {
   made_ = MadeVolume({30, 20, 20});
   made_.fill_ball(1, {9, 10, 10}, 6.0);

@@ -206,12 +206,12 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
   });
   const bool crosses = std::any_of(reaches.begin(), reaches.end(),
                                    [](const auto& ends) { return ends[0] && ends[1]; });
-  // A grain may be hollow: it lies within the volume, and holds little. What fills most of the
-  // volume is no wall but the space between dark grains.
   const std::uint64_t held = material - wall.voxels;
-  if (held == 0 || 2 * wall.voxels > mask.size() ||
-      (!crosses && (must_cross || 2 * held < wall.voxels)))
-    return {};
+  // A hollow grain lies within the volume and holds little.
+  const bool is_hollow_grain = !crosses && (must_cross || 2 * held < wall.voxels);
+  // The space between dark grains fills most of the volume.
+  const bool is_space = 2 * wall.voxels > mask.size();
+  if (held == 0 || is_hollow_grain || is_space) return {};
   return wall;
 }
 
