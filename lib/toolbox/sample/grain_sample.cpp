@@ -256,8 +256,10 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     return mass_of(k, volume ? value(k, *volume) : pi / 6.0 * size * size * size);
   };
   // An empty cell: without its mass the grain would count by number only.
-  const auto weighed = std::stable_partition(kept.begin(), kept.end(),
-                                             [&](Eigen::Index k) { return mass_in(k) > 0.0; });
+  const auto weighed = std::stable_partition(kept.begin(), kept.end(), [&](Eigen::Index k) {
+    const double mass = mass_in(k);
+    return std::isfinite(mass) && mass > 0.0;
+  });
   if (weighed != kept.end()) {
     sample.notes.push_back(counted(static_cast<std::size_t>(kept.end() - weighed),
                                    "without a mass (volume, density) left out."));

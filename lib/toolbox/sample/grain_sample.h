@@ -72,7 +72,7 @@ struct GrainSample {
   std::string size_name;           ///< for people, such as "sieve size (axis_i_box)"
   std::string size_unit;           ///< such as "length"; may be empty
   Eigen::VectorXd sizes;
-  Eigen::VectorXd masses;
+  Eigen::VectorXd masses;            ///< above 0 and finite
   double density = 1.0;              ///< of all grains; NaN if the table has masses or densities
   std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing

@@ -55,8 +55,7 @@ class PooledColumn {
     values_ = all.values();
     grains_ = all.grains();
     for (const std::uint32_t grain : grains_) {
-      const double mass = masses[grain];
-      masses_.push_back(std::isfinite(mass) && mass > 0.0 ? mass : 0.0);
+      masses_.push_back(masses[grain]);
       mass_ += masses_.back();
     }
   }
@@ -110,7 +109,7 @@ class PooledColumn {
   }
 
   std::vector<double> values_;
-  std::vector<double> masses_;  ///< 0: missing
+  std::vector<double> masses_;
   std::vector<std::uint32_t> grains_;
   double mass_ = 0.0;
 };

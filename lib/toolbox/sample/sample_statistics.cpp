@@ -48,10 +48,7 @@ class Repeated {
     values_ = distribution.values();
     grains_ = distribution.grains();
     middle_ = distribution.mean();
-    for (const std::uint32_t grain : grains_) {
-      const double mass = masses[grain];
-      masses_.push_back(std::isfinite(mass) && mass > 0.0 ? mass : 0.0);
-    }
+    for (const std::uint32_t grain : grains_) masses_.push_back(masses[grain]);
   }
 
   const std::vector<double>& values() const { return values_; }
@@ -85,7 +82,7 @@ class Repeated {
                         double total, double* result) const;
 
   std::vector<double> values_;  ///< ascending
-  std::vector<double> masses_;  ///< 0: missing
+  std::vector<double> masses_;
   std::vector<std::uint32_t> grains_;
   double middle_ = 0.0;
   bool is_size_;
@@ -344,9 +341,7 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
             : rank_correlation(sample.sizes, sample.values.col(static_cast<Eigen::Index>(k)));
     statistics.columns.push_back(column);
   }
-  for (const double mass : sample.masses) {
-    if (std::isfinite(mass)) statistics.mass += mass;
-  }
+  for (const double mass : sample.masses) statistics.mass += mass;
   return statistics;
 }
 
