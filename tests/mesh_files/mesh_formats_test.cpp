@@ -3,18 +3,21 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
 #include <boost/endian/conversion.hpp>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
@@ -101,6 +104,59 @@ TEST_F(MeshFormats, OfFiniteElementsAreReadBack) {
   }
 }
 
+// A U of 8 corners is seen whole from none of them; as a fan its area would depend on the first.
+TEST_F(MeshFormats, ConcavePolygonsKeepTheirAreaFromAnyCorner) {
+  const std::vector<std::array<int, 2>> outline = {{0, 0}, {3, 0}, {3, 3}, {2, 3},
+                                                   {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+  for (int first = 0; first < 8; ++first) {
+    std::vector<std::vector<int>> faces(2);
+    for (int k = 0; k < 8; ++k) {
+      const int corner = (first + k) % 8;
+      faces[0].push_back(corner + 8);
+      faces[1].push_back((first + 8 - k) % 8);
+      const int next = (corner + 1) % 8;
+      faces.push_back({corner, next, next + 8, corner + 8});
+    }
+    std::string points, off, obj;
+    for (int k = 0; k < 16; ++k) {
+      const auto& [x, y] = outline[static_cast<std::size_t>(k % 8)];
+      points += std::to_string(x) + " " + std::to_string(y) + (k < 8 ? " 0\n" : " 2\n");
+    }
+    std::istringstream lines(points);
+    for (std::string line; std::getline(lines, line);) obj += "v " + line + "\n";
+    int end = 0;
+    for (const std::vector<int>& face : faces) {
+      off += std::to_string(face.size());
+      obj += "f";
+      for (const int corner : face) {
+        off += " " + std::to_string(corner);
+        obj += " " + std::to_string(corner + 1);
+      }
+      off += "\n";
+      obj += "\n";
+      end += static_cast<int>(face.size());
+    }
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"u.off", "OFF\n16 10 0\n" + points + off},
+        {"u.obj", obj},
+        {"u.ply",
+         "ply\nformat ascii 1.0\nelement vertex 16\nproperty float x\nproperty float y\n"
+         "property float z\nelement face 10\nproperty list uchar int vertex_indices\n"
+         "end_header\n" +
+             points + off},
+        {"u.vtk", "# vtk DataFile Version 3.0\nU\nASCII\nDATASET POLYDATA\nPOINTS 16 float\n" +
+                      points + "POLYGONS 10 " + std::to_string(end + 10) + "\n" + off}};
+    for (const auto& [name, text] : files) {
+      const IndexedMesh mesh = read_mesh(file(name, text));
+      ASSERT_EQ(mesh.triangles.size(), 28U) << name << " from corner " << first;
+      const MeshSums sums =
+          mesh_sums(mesh.points, mesh.triangles, Vector3(0.3, 0.2, 0.1), Execution(1));
+      EXPECT_NEAR(sums.volume(), 14.0, 1e-12) << name << " from corner " << first;
+      EXPECT_NEAR(sums.area(), 46.0, 1e-12) << name << " from corner " << first;
+    }
+  }
+}
+
 TEST_F(MeshFormats, OfFiniteElementsOfOthersGiveTheirFaces) {
   const IndexedMesh expected{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5}},
                              {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
@@ -136,6 +192,14 @@ TEST_F(MeshFormats, OfFiniteElementsOfOthersGiveTheirFaces) {
   expect_refusal("cut.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n",
                  "cut off");
   expect_refusal("lost.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=S3\n1,1,2,3\n", "node 2");
+  // A part that stays where it is.
+  const std::string part =
+      "*Part, name=p\n*Node\n10,0,0,0\n20,1,0,0\n30,1,1,0\n40,0,1,.5\n"
+      "*Element, type=S4\n1,10,20,30,40\n*Element, type=S3\n2,10,40,20\n"
+      "*End Part\n*Assembly, name=a\n*Instance, name=p-1, part=p\n";
+  expect("stays.inp", part + "0., 0., 0.\n*End Instance\n*End Assembly\n");
+  expect_refusal("moved.inp", part + "0., 0., 0.\n0.,0.,0.,0.,0.,1.,90.\n", "line 15 moves");
+  expect_refusal("twice.inp", part + "*End Instance\n*Instance, name=p-2, part=p\n", "repeats");
   expect_refusal("volume.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n1,1,1,1,1\n", "surface");
 }
 

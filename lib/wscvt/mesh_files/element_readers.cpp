@@ -43,6 +43,7 @@ class ElementMesh {
       reader_.fail("holds no triangles or quadrilaterals. Save the surface of the grain too.");
     }
     IndexedMesh mesh;
+    mesh.points = std::move(points_);
     std::vector<std::int32_t> corners;
     std::size_t begin = 0;
     for (const std::size_t end : ends_) {
@@ -55,9 +56,8 @@ class ElementMesh {
         }
         corners.push_back(found->second);
       }
-      add_fan(corners.data(), corners.size(), mesh.triangles);
+      add_polygon(corners, mesh.points, mesh.triangles);
     }
-    mesh.points = std::move(points_);
     return mesh;
   }
 
@@ -240,13 +240,20 @@ std::size_t corners_of_abaqus(const std::string& type) {
   return 0;
 }
 
+[[noreturn]] void refuse_instances(const ByteReader& reader) {
+  reader.fail_line(
+      "moves or repeats a part by *INSTANCE, which is not read. Write the file without parts and "
+      "assemblies (Abaqus: Model > Edit Attributes).");
+}
+
 }  // namespace
 
 void read_gmsh(ByteReader& reader, MeshFile& file) { file.mesh = GmshReader(reader).read(); }
 
 void read_abaqus(ByteReader& reader, MeshFile& file) {
   ElementMesh mesh(reader);
-  enum class Block { Other, Nodes, Faces } block = Block::Other;
+  enum class Block { Other, Nodes, Faces, Instance } block = Block::Other;
+  bool has_instance = false;
   std::size_t corners = 0;
   std::vector<std::int64_t> nodes;
   const auto whole = [&](std::string_view field) {
@@ -263,7 +270,10 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
     if (fields.empty()) continue;
     if (text.front() == '*') {
       const std::string keyword = lower_case(fields[0]);
-      block = keyword == "*node" ? Block::Nodes : Block::Other;
+      block = keyword == "*node"       ? Block::Nodes
+              : keyword == "*instance" ? Block::Instance
+                                       : Block::Other;
+      if (block == Block::Instance && std::exchange(has_instance, true)) refuse_instances(reader);
       if (keyword != "*element") continue;
       for (const std::string_view field : fields) {
         const std::string option = lower_case(field);
@@ -284,6 +294,11 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
         point[static_cast<Eigen::Index>(k - 1)] = *value;
       }
       mesh.add_node(whole(fields[0]), point);
+    } else if (block == Block::Instance) {
+      // A translation, and in the next line a rotation.
+      for (const std::string_view field : fields) {
+        if (number_in(field) != 0.0) refuse_instances(reader);
+      }
     } else if (block == Block::Faces) {
       if (fields.size() < corners + 1) {
         reader.fail_line("has fewer nodes than its type of element" + std::string(export_again));

@@ -66,7 +66,7 @@ class LegacyVtkReader {
     std::size_t cell = other_cells_;  // VTK numbers vertices and lines first, strips last
     for (const bool strips : {false, true}) {
       const VtkPolygons& list = strips ? strips_ : polygons_;
-      add_polygons(list, strips, 0, mesh_.points.size(), reader_, mesh_.triangles, cell, cells);
+      add_polygons(list, strips, 0, reader_, mesh_, cell, cells);
       cell += list.ends.size();
     }
     if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));

@@ -195,10 +195,15 @@ class ObjReader {
       corners_.push_back(static_cast<std::int32_t>(index));
       corner_places_.push_back(place_number(field));
     }
-    add_fan(corners_.data(), corners_.size(), mesh_.triangles);
+    add_polygon(corners_, mesh_.points, mesh_.triangles);
     objects_.add_to(mesh_.triangles.size());
     groups_.add_to(mesh_.triangles.size());
-    add_fan(corner_places_.data(), corner_places_.size(), place_numbers_);
+    for_each_triangle(corners_, mesh_.points, [&](const Triangle& t) {
+      const auto place = [&](std::int32_t k) {
+        return corner_places_[static_cast<std::size_t>(k)];
+      };
+      place_numbers_.push_back({place(t[0]), place(t[1]), place(t[2])});
+    });
     material_of_face_.resize(mesh_.triangles.size(), material_);
   }
 

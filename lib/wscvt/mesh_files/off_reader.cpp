@@ -121,7 +121,7 @@ void read_off(ByteReader& reader, MeshFile& file) {
                          export_again);
       }
     }
-    add_fan(corners.data(), corners.size(), mesh.triangles);
+    add_polygon(corners, mesh.points, mesh.triangles);
   }
   if (faces > 0 && mesh.triangles.empty()) {
     reader.fail("has faces, but none of them has three corners" + std::string(export_again));

@@ -342,16 +342,16 @@ class Body {
     const double picture = number < element.properties.size() ? scalars_[number] : 0.0;
     const bool is_known = picture >= 0.0 && picture < static_cast<double>(header_.pictures.size());
     const bool has_places = places_.size() == 2 * corners_.size();
-    const auto place = [&](std::size_t k) {
-      return MeshTexture::Place(static_cast<float>(places_[2 * k]),
-                                static_cast<float>(places_[2 * k + 1]));
+    const auto place = [&](std::int32_t corner) {
+      const auto k = 2 * static_cast<std::size_t>(corner);
+      return MeshTexture::Place(static_cast<float>(places_[k]), static_cast<float>(places_[k + 1]));
     };
-    for (std::size_t i = 2; i < corners_.size(); ++i) {
+    for_each_triangle(corners_, mesh_.points, [&](const Triangle& t) {
       texture.picture_of_face.push_back(is_known ? static_cast<std::int32_t>(picture) : -1);
       texture.corners.push_back(
-          has_places ? std::array<MeshTexture::Place, 3>{place(0), place(i - 1), place(i)}
+          has_places ? std::array<MeshTexture::Place, 3>{place(t[0]), place(t[1]), place(t[2])}
                      : no_corners);
-    }
+    });
   }
 
   /// Reads faces, or strips of triangles.
@@ -373,12 +373,12 @@ class Body {
     if (!strips) mesh_.triangles.reserve(static_cast<std::size_t>(element.count));
     for (std::uint64_t f = 0; f < element.count; ++f) {
       read_record(element, f, list);
-      add_polygon(element, f, strips);
+      add_record(element, f, strips);
     }
   }
 
   /// Adds the polygon or strip of the last record.
-  void add_polygon(const Element& element, std::uint64_t record, bool strip) {
+  void add_record(const Element& element, std::uint64_t record, bool strip) {
     corners_.clear();
     const auto end_strip = [&] {
       add_strip(corners_.data(), corners_.size(), mesh_.triangles);
@@ -398,7 +398,7 @@ class Body {
     if (strip) {
       end_strip();
     } else {
-      add_fan(corners_.data(), corners_.size(), mesh_.triangles);
+      add_polygon(corners_, mesh_.points, mesh_.triangles);
       keep_attributes(element, std::max<std::size_t>(corners_.size(), 2) - 2, attributes_.of_faces);
       if (!header_.pictures.empty()) add_places(element);
     }

@@ -1,15 +1,68 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/mesh_files/reader_parts.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
 namespace wscvt {
 
-void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, std::size_t points,
-                  const ByteReader& reader, std::vector<Triangle>& triangles, std::size_t cell,
+std::vector<Triangle> split_polygon(const std::vector<Vector3>& corners) {
+  // Ears cost the square of the corners and more: beyond this a polygon is taken for convex.
+  constexpr std::size_t most_corners = 2000;
+  const auto count = static_cast<std::int32_t>(corners.size());
+  const auto at = [&](std::int32_t k) -> const Vector3& {
+    return corners[static_cast<std::size_t>(k)];
+  };
+  Vector3 normal = Vector3::Zero();
+  for (std::int32_t k = 2; k < count; ++k) {
+    normal += (at(k - 1) - at(0)).cross(at(k) - at(0));
+  }
+  // Above 0: as the polygon.
+  const auto turn = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    return (at(b) - at(a)).cross(at(c) - at(a)).dot(normal);
+  };
+  std::vector<Triangle> triangles;
+  bool is_fan = true;
+  for (std::int32_t k = 2; k < count; ++k) {
+    triangles.push_back({0, k - 1, k});
+    if (turn(0, k - 1, k) < 0.0) is_fan = false;
+  }
+  if (is_fan || corners.size() > most_corners) return triangles;
+  triangles.clear();
+  std::vector<std::int32_t> left;
+  for (std::int32_t k = 0; k < count; ++k) left.push_back(k);
+  const auto ear_at = [&](std::size_t k) -> Triangle {
+    const std::size_t n = left.size();
+    return {left[(k + n - 1) % n], left[k], left[(k + 1) % n]};
+  };
+  const auto is_free = [&](const Triangle& t) {
+    return std::none_of(left.begin(), left.end(), [&](std::int32_t p) {
+      // An outline around a hole passes some points twice.
+      if (at(p) == at(t[0]) || at(p) == at(t[1]) || at(p) == at(t[2])) return false;
+      return turn(t[0], t[1], p) >= 0.0 && turn(t[1], t[2], p) >= 0.0 && turn(t[2], t[0], p) >= 0.0;
+    });
+  };
+  while (left.size() > 3) {
+    std::size_t ear = 0;
+    const auto is_ear = [&](std::size_t k) {
+      const Triangle t = ear_at(k);
+      return turn(t[0], t[1], t[2]) > 0.0 && is_free(t);
+    };
+    while (ear < left.size() && !is_ear(ear)) ++ear;
+    if (ear == left.size()) ear = 1;  // an outline that crosses itself, or a straight rest
+    triangles.push_back(ear_at(ear));
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  triangles.push_back({left[0], left[1], left[2]});
+  return triangles;
+}
+
+void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
+                  const ByteReader& reader, IndexedMesh& mesh, std::size_t cell,
                   std::vector<std::size_t>& cells) {
-  if (first + points > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+  const std::size_t points = mesh.points.size() - first;
+  if (mesh.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     reader.fail("has more points than can be numbered. Reduce the scan first.");
   }
   std::vector<std::int64_t> corners;
@@ -22,17 +75,18 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, s
     corners.push_back(corner + static_cast<std::int64_t>(first));
   }
   std::int64_t begin = 0;
+  std::vector<std::int64_t> polygon;
   for (const std::int64_t end : polygons.ends) {
     if (end < begin || static_cast<std::uint64_t>(end) > corners.size()) {
       reader.fail("has faces whose corners do not follow each other" + std::string(export_again));
     }
-    const auto count = static_cast<std::size_t>(end - begin);
     if (strips) {
-      add_strip(corners.data() + begin, count, triangles);
+      add_strip(corners.data() + begin, static_cast<std::size_t>(end - begin), mesh.triangles);
     } else {
-      add_fan(corners.data() + begin, count, triangles);
+      polygon.assign(corners.begin() + begin, corners.begin() + end);
+      add_polygon(polygon, mesh.points, mesh.triangles);
     }
-    cells.resize(triangles.size(), cell++);
+    cells.resize(mesh.triangles.size(), cell++);
     begin = end;
   }
 }

@@ -16,14 +16,35 @@
 
 namespace wscvt {
 
-/// Adds the fan of a polygon with valid corners. Skips polygons with fewer than three corners.
-template <class Index>
-void add_fan(const Index* corners, std::size_t count, std::vector<Triangle>& triangles) {
-  for (std::size_t i = 2; i < count; ++i) {
-    triangles.push_back({static_cast<std::int32_t>(corners[0]),
-                         static_cast<std::int32_t>(corners[i - 1]),
-                         static_cast<std::int32_t>(corners[i])});
+/// Splits a polygon of four or more corners into triangles of their numbers: those at its first
+/// corner unless one of them turns over, else ears, so that a concave polygon keeps its area.
+std::vector<Triangle> split_polygon(const std::vector<Vector3>& corners);
+
+/// Calls take(k) with the three places among the corners of each triangle of a polygon. Corners may
+/// name points that are not known yet; such a polygon is taken for convex.
+template <class Index, class Take>
+void for_each_triangle(const std::vector<Index>& corners, const std::vector<Vector3>& points,
+                       const Take& take) {
+  if (corners.size() == 3) take(Triangle{0, 1, 2});
+  if (corners.size() < 4) return;
+  std::vector<Vector3> places;
+  for (const Index corner : corners) {
+    const auto k = static_cast<std::size_t>(corner);
+    places.push_back(k < points.size() ? points[k] : Vector3::Zero());
   }
+  for (const Triangle& t : split_polygon(places)) take(t);
+}
+
+/// Adds the triangles of a polygon. Skips polygons with fewer than three corners.
+template <class Index>
+void add_polygon(const std::vector<Index>& corners, const std::vector<Vector3>& points,
+                 std::vector<Triangle>& triangles) {
+  const auto corner = [&](std::int32_t k) {
+    return static_cast<std::int32_t>(corners[static_cast<std::size_t>(k)]);
+  };
+  for_each_triangle(corners, points, [&](const Triangle& t) {
+    triangles.push_back({corner(t[0]), corner(t[1]), corner(t[2])});
+  });
 }
 
 /// Adds the triangles of a strip and turns every second one. Skips triangles without three
@@ -45,11 +66,11 @@ struct VtkPolygons {
   std::vector<std::int64_t> ends;
 };
 
-/// Adds the triangles of the polygons or strips, with corners counted from `first`, and appends the
-/// number of its polygon, from `cell` on, for each triangle. Throws
-/// Error(InputOutput) if a corner is not below `points` or the ends do not ascend.
-void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first, std::size_t points,
-                  const ByteReader& reader, std::vector<Triangle>& triangles, std::size_t cell,
+/// Adds the triangles of the polygons or strips to a mesh, whose points from `first` on they number
+/// from 0, and appends the number of its polygon, from `cell` on, for each triangle. Throws
+/// Error(InputOutput) if there is no such point or the ends do not ascend.
+void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
+                  const ByteReader& reader, IndexedMesh& mesh, std::size_t cell,
                   std::vector<std::size_t>& cells);
 
 /// Collects the names of faces while a file is read.

@@ -253,7 +253,7 @@ class VtpReader {
                                  coordinates[3 * i + 2]);
       }
     }
-    if (is_grid_) return add_cells(piece, first, count, mesh, cells);
+    if (is_grid_) return add_cells(piece, first, mesh, cells);
     std::size_t cell = count_in(piece, "NumberOfVerts") + count_in(piece, "NumberOfLines");
     // VTK numbers the polygons before the strips.
     for (const bool strips : {false, true}) {
@@ -266,13 +266,13 @@ class VtpReader {
         reader_.fail("has ends of " + std::to_string(polygons.ends.size()) + " faces and " +
                      std::to_string(faces) + " faces" + export_again);
       }
-      add_polygons(polygons, strips, first, count, reader_, mesh.triangles, cell, cells);
+      add_polygons(polygons, strips, first, reader_, mesh, cell, cells);
       cell += faces;
     }
   }
 
   /// Adds the triangles, quadrilaterals and polygons of an unstructured grid.
-  void add_cells(const Piece& piece, std::size_t first, std::size_t count, IndexedMesh& mesh,
+  void add_cells(const Piece& piece, std::size_t first, IndexedMesh& mesh,
                  std::vector<std::size_t>& cells) const {
     if (count_in(piece, "NumberOfCells") == 0) return;
     const std::vector<std::int64_t> corners = numbers<std::int64_t>(piece, "Cells/connectivity");
@@ -302,7 +302,7 @@ class VtpReader {
       reader_.fail("holds no triangles or polygons. Save the surface of the grain too.");
     }
     const std::size_t before = cells.size();
-    add_polygons(faces, false, first, count, reader_, mesh.triangles, 0, cells);
+    add_polygons(faces, false, first, reader_, mesh, 0, cells);
     for (std::size_t t = before; t < cells.size(); ++t) cells[t] = of_face[cells[t]];
   }
 
