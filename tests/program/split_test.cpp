@@ -56,6 +56,21 @@ TEST_F(Bodies, WritesAFileABodyAndATable) {
   EXPECT_EQ(read_mesh(path("out/3.off")).points.size(), test::sphere(3).points.size());
 }
 
+// A refused mesh is split as its message says, in whatever format it is.
+TEST_F(Bodies, SplitsWhatRemeshRefuses) {
+  const IndexedMesh two =
+      test::joined(test::sphere(3), test::moved(test::sphere(3), 1.0, {3, 0, 0}));
+  for (const std::string ending : {"ply", "inp", "vtu", "msh"}) {
+    const std::string name = "two." + ending;
+    write_mesh(two, path(name));
+    const Outcome refused = run("remesh " + name + " out.ply");
+    EXPECT_NE(refused.errors.find("wscvt extract MESH OUT"), std::string::npos) << ending;
+    const Outcome outcome = run("extract " + name + " " + ending);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.output, "2 bodies: 2 written\n");
+  }
+}
+
 TEST_F(Bodies, NamesBodiesAndOnlyListsOpenOnes) {
   IndexedMesh open = test::moved(test::sphere(2), 1.0, {9, 0, 0});
   open.triangles.pop_back();

@@ -188,7 +188,7 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
 }
 
 int run(const ExtractArguments& given) {
-  const bool is_mesh = !is_volume(given.input) && is_mesh_file(given.input);
+  const bool is_mesh = !is_volume(given.input) && is_mesh_format(given.input, MeshUse::Read);
   const ExtractArguments arguments = checked([&] {
     if (is_mesh) check_mesh_input(given.input);
     ExtractArguments call = checked_call(given, is_mesh);
