@@ -330,6 +330,16 @@ TEST(Report, MassTableHoldsTheWholeTensor) {
   EXPECT_EQ(rows[1][2], "7, 8, 9");
 }
 
+// With six digits a grain of 2 would be 10 from its place.
+TEST(Report, MassTableTellsThePlaceOfAGrainFarFromTheOrigin) {
+  NamedMass body{"one", {}};
+  body.mass.volume = 4.18879;  // of radius 1
+  body.mass.centroid = Vector3(500000.3125, -4200000.7, 0.8125);
+  EXPECT_EQ(mass_rows({body})[1][1], "500000.3125, -4200000.7, 0.8125");
+  body.mass.centroid = Vector3(1.0 / 3.0, 1000.0 / 3.0, -1e7 / 3.0);
+  EXPECT_EQ(mass_rows({body})[1][1], "0.333333, 333.33333, -3333333.33333");
+}
+
 TEST(Report, TextNamesAlphaOnlyWhereItMatters) {
   RemeshResult result = example();
   EXPECT_FALSE(contains(text_of(result), "alpha"));

@@ -13,6 +13,7 @@
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "toolbox/clump/first_contact.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
@@ -54,7 +55,7 @@ TEST(ClumpReport, LinesFitIn80ColumnsAndHoldEachNumberOnce) {
     std::vector<double> numbers = {mass.volume, mass.principal_axes.w(), mass.principal_axes.x(),
                                    mass.principal_axes.y(), mass.principal_axes.z()};
     for (int i = 0; i < 3; ++i) {
-      numbers.push_back(mass.centroid[i]);
+      EXPECT_TRUE(holds(all, format_coordinate(mass.centroid[i], equivalent_radius(mass.volume))));
       numbers.push_back(mass.principal_moments[i]);
       for (int j = i; j < 3; ++j) numbers.push_back(mass.inertia_tensor(i, j));
     }
@@ -190,9 +191,12 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInPageAndLog) {
   // The log has a number per cell: grain, union, sum.
   const MassProperties all[] = {mass_properties(clump.scan), clump.united.mass, clump.summed.mass};
   const auto expect = [&](const std::string& label, const auto& number_of) {
-    const std::vector<std::string> row = {label, format_number(number_of(all[0])),
-                                          format_number(number_of(all[1])),
-                                          format_number(number_of(all[2]))};
+    std::vector<std::string> row = {label};
+    for (const MassProperties& m : all) {
+      row.push_back(label.rfind("centroid", 0) == 0
+                        ? format_coordinate(number_of(m), equivalent_radius(m.volume))
+                        : format_number(number_of(m)));
+    }
     EXPECT_EQ(std::count(log.begin(), log.end(), row), 1) << label;
   };
   const std::string axes = "xyz";

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
@@ -136,8 +137,11 @@ std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump)
   constexpr std::array<char, 3> axes{'x', 'y', 'z'};
   add("volume, length^3", [](const MassProperties& m) { return m.volume; });
   for (Eigen::Index i = 0; i < 3; ++i) {
-    add(std::string("centroid ") + axes[static_cast<std::size_t>(i)] + ", length",
-        [i](const MassProperties& m) { return m.centroid[i]; });
+    rows.push_back({std::string("  centroid ") + axes[static_cast<std::size_t>(i)] + ", length"});
+    for (const NamedMass& body : bodies) {
+      rows.back().push_back(
+          format_coordinate(body.mass.centroid[i], equivalent_radius(body.mass.volume)));
+    }
   }
   for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
     add(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +

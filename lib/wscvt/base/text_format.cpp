@@ -22,6 +22,16 @@ std::string format_number(double value, int significant) {
   return text.str();
 }
 
+std::string format_coordinate(double value, double size) {
+  constexpr int most = 15;
+  int digits = 6;
+  for (double reach = 10.0 * std::abs(size);
+       digits < most && std::abs(value) > reach && reach > 0.0; reach *= 10.0) {
+    ++digits;
+  }
+  return format_number(value, digits);
+}
+
 std::string format_typed(double value) {
   const double size = std::abs(value);
   const bool plain = size == 0.0 || (size >= 1e-6 && size < 1e15);

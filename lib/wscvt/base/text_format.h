@@ -11,6 +11,10 @@ namespace wscvt {
 /// Formats a number for people, with `significant` >= 1 digits; "-" for NaN.
 std::string format_number(double value, int significant = 6);
 
+/// Formats a coordinate of a body with 6 digits, and far from the origin with more: to a hundred
+/// thousandth of the body's size.
+std::string format_coordinate(double value, double size);
+
 /// Returns the shortest decimal text that reads back as the same number, as a person types it:
 /// 1000000, not 1e+06; 0.001, not 1e-03. Uses an exponent below 1e-6 and from 1e15 on. Returns
 /// "nan" or "inf" for such values.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
@@ -177,7 +178,10 @@ std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bo
     const Vector3& moments = mass.principal_moments;
     const Eigen::Quaterniond& axes = mass.principal_axes;
     rows[0].push_back(body.name);
-    rows[1].push_back(listed({mass.centroid.x(), mass.centroid.y(), mass.centroid.z()}));
+    const double radius = equivalent_radius(mass.volume);
+    rows[1].push_back(format_coordinate(mass.centroid.x(), radius) + ", " +
+                      format_coordinate(mass.centroid.y(), radius) + ", " +
+                      format_coordinate(mass.centroid.z(), radius));
     rows[2].push_back(listed({tensor(0, 0), tensor(1, 1), tensor(2, 2)}));
     rows[3].push_back(listed({tensor(0, 1), tensor(0, 2), tensor(1, 2)}));
     rows[4].push_back(listed({moments[0], moments[1], moments[2]}));
