@@ -260,10 +260,25 @@ TEST(SampledDistances, OfManyFacesAreThoseOfATree) {
     EXPECT_NEAR(measured.to_reference.root_mean_square, to, 1e-14 * to);
     const double from = rms_by_tree(scan, mesh, samples);
     EXPECT_NEAR(measured.from_reference.root_mean_square, from, 1e-14 * from);
-    const std::vector<double> distances =
-        MeshDistance(scan).distances(area_uniform_samples(mesh, samples), Execution(1));
-    EXPECT_EQ(measured.to_reference.maximum, *std::max_element(distances.begin(), distances.end()));
+    const auto farthest = [](const IndexedMesh& one, const IndexedMesh& other) {
+      std::vector<Vector3> points = area_uniform_samples(one, samples);
+      points.insert(points.end(), one.points.begin(), one.points.end());
+      const std::vector<double> distances = MeshDistance(other).distances(points, Execution(1));
+      return *std::max_element(distances.begin(), distances.end());
+    };
+    EXPECT_NEAR(measured.to_reference.maximum, farthest(mesh, scan), 1e-14);
+    EXPECT_NEAR(measured.from_reference.maximum, farthest(scan, mesh), 1e-14);
   }
+}
+
+// No sample lies at a tip, and a remesh cuts it off.
+TEST(SampledDistances, FindTheTipOfAScan) {
+  IndexedMesh tip = test::sphere(4);
+  const Vector3 pole = tip.points[7];
+  tip.points[7] = 1.25 * pole;
+  const MeshDistances there = sampled_distances(test::sphere(4), tip, 50, Execution(2));
+  EXPECT_NEAR(there.largest, 0.25, 1e-12);
+  EXPECT_NEAR(sampled_distances(tip, test::sphere(4), 50, Execution(1)).largest, 0.25, 1e-12);
 }
 
 /// A few large faces beside many small ones, which a choice by number would leave out.

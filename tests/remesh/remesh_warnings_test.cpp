@@ -24,6 +24,8 @@ RemeshResult clean() {
   result.input.equivalent_radius = 2.0;
   result.scan.area = 10.0;
   result.remesh.area = 10.0;
+  result.scan.volume = 4.0;
+  result.remesh.volume = 4.0;
   result.quality.smallest_angle = 40.0;
   return result;
 }
@@ -210,10 +212,28 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
        },
        {"area error -5 %. "}},
       {[](RemeshResult& r) {
-         r.rms_distance = 1.0;
+         r.rms_distance = 0.039;  // of radius 2
+         r.remesh.area = 10.3;
+         r.remesh.volume = 1.05 * r.scan.volume;
          std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
        },
        {}},
+      // A contact fit that shrinks or blows up a grain, or is far off.
+      {[](RemeshResult& r) {
+         r.remesh.volume = 0.93 * r.scan.volume;
+         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+       },
+       {"area error +0 %, volume error -7 %. Use more nodes, or --placement fitted, which keeps"}},
+      {[](RemeshResult& r) {
+         r.rms_distance = 0.041;
+         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+       },
+       {"rms distance 2.05 %"}},
+      {[](RemeshResult& r) {
+         r.quality.smallest_angle = 8.0;
+         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+       },
+       {"8 degrees: the contact fit moves nodes", "If angles count, use --placement fitted."}},
       // What helps follows from the options.
       {[](RemeshResult& r) { r.rms_distance = 0.04; }, {"Use more nodes, or --edge-ratio 1.4: "}},
       {[](RemeshResult& r) {
@@ -225,7 +245,7 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
          r.rms_distance = 0.04;
          std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::OnSurface;
        },
-       {"Use more nodes, or --placement fitted."}},
+       {"Use more nodes, or --placement fitted, which keeps the volume."}},
       {[](RemeshResult& r) {
          as_published(r);
          r.rms_distance = 0.04;

@@ -256,21 +256,48 @@ OneSidedDistance of_samples(const std::vector<double>& distances, const Executio
   return {sums.maximum, std::sqrt(sums.squares / count), sums.sum / count};
 }
 
-OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
-                           const Execution& execution) {
-  std::vector<char> used(from.points.size(), 0);
-  for (const Triangle& t : from.triangles) {
+/// Returns the vertices that faces have.
+std::vector<Vector3> vertices_of(const IndexedMesh& mesh) {
+  std::vector<char> used(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles) {
     for (const std::int32_t v : t) used[v] = 1;
   }
   std::vector<Vector3> vertices;
-  vertices.reserve(from.points.size());
-  for (std::size_t i = 0; i < from.points.size(); ++i) {
-    if (used[i] != 0) vertices.push_back(from.points[i]);
+  vertices.reserve(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (used[i] != 0) vertices.push_back(mesh.points[i]);
   }
+  return vertices;
+}
+
+/// The larger of two squares, as a sum of parts.
+struct LargestSquare {
+  double value = 0.0;
+
+  LargestSquare& operator+=(const LargestSquare& other) {
+    value = std::max(value, other.value);
+    return *this;
+  }
+};
+
+/// Samples and all vertices. A vertex costs little: its search ends at any face as near as the
+/// largest distance so far.
+OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
+                           const Execution& execution) {
   OneSidedDistance result =
       of_samples(to.distances(area_uniform_samples(from, samples), execution), execution);
-  const DistanceSums corners = sums_of(to.distances(vertices, execution), execution);
-  result.maximum = std::max(result.maximum, corners.maximum);
+  const std::vector<Vector3> vertices = vertices_of(from);
+  const LargestSquare sampled{result.maximum * result.maximum};
+  const LargestSquare largest = execution.parallel_sum(
+      vertices.size(), distance_block, sampled, [&](std::size_t begin, std::size_t end) {
+        LargestSquare part = sampled;
+        std::size_t near = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          part.value = std::max(part.value, to.squared_distance(vertices[i], near, part.value));
+        }
+        return part;
+      });
+  if (largest.value > sampled.value) result.maximum = std::sqrt(largest.value);
   return result;
 }
 
@@ -308,10 +335,15 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution) {
   check_distance_options({samples});
-  const auto one_way = [&](const IndexedMesh& from, const IndexedMesh& to) {
-    return of_samples(distances_to(to, area_uniform_samples(from, samples), execution), execution);
-  };
-  return both_of(one_way(mesh, reference), one_way(reference, mesh));
+  std::vector<Vector3> points = area_uniform_samples(mesh, samples);
+  const std::vector<Vector3> vertices = vertices_of(mesh);
+  points.insert(points.end(), vertices.begin(), vertices.end());
+  std::vector<double> distances = distances_to(reference, points, execution);
+  const double largest = *std::max_element(distances.begin(), distances.end());
+  distances.resize(samples);
+  OneSidedDistance to = of_samples(distances, execution);
+  to.maximum = largest;
+  return both_of(to, one_sided(reference, MeshDistance(mesh, execution), samples, execution));
 }
 
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,

@@ -68,8 +68,8 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
                                 const MeshDistance& to_reference, const DistanceOptions& options,
                                 const Execution& execution);
 
-/// Measures the distances between two surfaces as measure_distances does, but without the vertices,
-/// which a scan may have many more of than `samples`: the maxima are those of the samples.
+/// Measures the same with few samples: it builds no tree of the reference if that has many more
+/// faces than there are points, as a scan may have.
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution);
 

@@ -24,9 +24,13 @@ inline constexpr double area_warning_limit = 0.02;
 /// ball for a plate. The very first warning says so.
 inline constexpr double other_body_limit = 0.2;
 
-/// Returns whether the remesh exceeds any limit. A contact fit never does, because it is not
-/// fitted to the scan's shape; nor does the remesh of a scan in voxel steps, from which it should
-/// differ.
+/// Volume error above which a contact fit is not accurate; its other limits are twice those above.
+/// Its nodes go off the scan by the sagitta of an edge: ordinary grains of 100 nodes become 8 to
+/// 10 % larger, of 200 nodes 5 %, a plate of 30:1 with 150 nodes 89 %.
+inline constexpr double contact_volume_limit = 0.06;
+
+/// Returns whether the remesh exceeds any limit. That of a scan in voxel steps never does, because
+/// it should differ from the scan.
 bool is_inaccurate(const RemeshResult& result);
 
 /// Appends a sentence each about the scan's omitted bodies, inner surfaces and repaired area.
