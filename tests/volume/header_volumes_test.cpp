@@ -124,6 +124,9 @@ TEST_F(HeaderVolumes, ReadsNrrdInManyFiles) {
 TEST_F(HeaderVolumes, ReadsNrrdAsTextAndByBzip2) {
   write("a.nrrd", nrrd("encoding: ascii\n\n") + text());
   expect_made("a.nrrd");
+  // A size that is not read.
+  write("a.nrrd", nrrd("axis mins: 0 0 0\naxis maxs: 7 5 3\nencoding: ascii\n\n") + text());
+  expect_refused("a.nrrd", {"axis mins", "--voxel-size"});
   write("a.txt", text());
   write("a.nhdr", nrrd("encoding: text\ndata file: a.txt\n"));
   expect_made("a.nhdr");

@@ -174,6 +174,44 @@ TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
             std::string::npos);
 }
 
+TEST_F(TiffVolume, RefusesImageJsAxesInTwoUnits) {
+  TiffPages stack = as();
+  stack.resolution = 20.0;
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=mm\nzunit=micron\nspacing=0.25\n";
+  write_tiff(path("a.tif"), stack, pages());
+  expect_refused("a.tif", {"in \"mm\" and in \"um\"", "--voxel-size"});
+  VolumeChoice given;
+  given.voxel_size = Vector3(0.05, 0.1, 0.00025);
+  EXPECT_EQ(open_volume(path("a.tif"), given)->geometry().point({1, 1, 1}), *given.voxel_size);
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=um\nyunit=micron\nspacing=0.25\n";
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_EQ(geometry("a.tif").unit, "um");
+}
+
+// ImageJ's "Save as image sequence": each slice has the unit, none the distance of slices.
+TEST_F(TiffVolume, TakesImageJsSizesOfSlicesInAFolder) {
+  fs::create_directory(folder_ / "slices");
+  TiffPages slice = as();
+  slice.resolution = 20.0;
+  const auto write_slices = [&](const std::string& text, std::uint32_t more) {
+    slice.text = text;
+    for (int z = 0; z < 3; ++z) {
+      write_tiff(path("slices/s" + std::to_string(z) + ".tif"), slice, {page(z, more)});
+    }
+  };
+  write_slices("ImageJ=1.53t\nunit=mm\n", 0);
+  expect_made("slices");
+  EXPECT_EQ(geometry("slices").unit, "mm");
+  EXPECT_LT((geometry("slices").point({1, 1, 1}) - Vector3(0.05, 0.1, 0.05)).norm(), 1e-7);
+  ASSERT_EQ(notes("slices").size(), 1U);
+  EXPECT_NE(notes("slices")[0].find("along z as along x"), std::string::npos);
+  write_slices("ImageJ=1.53t\nunit=mm\nspacing=1.1\ncf=0\nc0=-32768\nc1=1\n", 32768);
+  EXPECT_LT((geometry("slices").point({1, 1, 1}) - Vector3(0.05, 0.1, 1.1)).norm(), 1e-7);
+  expect_made("slices");
+  write_slices("ImageJ=1.53t\n", 0);
+  EXPECT_FALSE(geometry("slices").has_size);
+}
+
 TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
   TiffPages stack = as();
   stack.resolution = 2000.0;

@@ -25,6 +25,7 @@ struct NrrdHeader {
   bool big_endian = false;
   std::vector<std::string> kinds;
   std::vector<double> spacings;  ///< NaN for axes that are not space
+  bool has_ends = false;         ///< axis mins or axis maxs
   std::vector<std::optional<Vector3>> directions;
   Vector3 origin = Vector3::Zero();
   std::vector<std::string> units;
@@ -69,27 +70,13 @@ std::vector<std::optional<Vector3>> directions_in(const std::string& text, const
 
 /// Fields that do not affect the position or type of voxels.
 bool is_passed_over(const std::string& name) {
-  static const std::array<const char*, 21> names = {"space",
-                                                    "space dimension",
-                                                    "measurement frame",
-                                                    "content",
-                                                    "number",
-                                                    "thicknesses",
-                                                    "axis mins",
-                                                    "axismins",
-                                                    "axis maxs",
-                                                    "axismaxs",
-                                                    "centers",
-                                                    "centerings",
-                                                    "labels",
-                                                    "block size",
-                                                    "blocksize",
-                                                    "min",
-                                                    "max",
-                                                    "old min",
-                                                    "oldmin",
-                                                    "old max",
-                                                    "oldmax"};
+  static const std::array<const char*, 17> names = {
+      "space",      "space dimension", "measurement frame",
+      "content",    "number",          "thicknesses",
+      "centers",    "centerings",      "labels",
+      "block size", "blocksize",       "min",
+      "max",        "old min",         "oldmin",
+      "old max",    "oldmax"};
   return std::find(names.begin(), names.end(), name) != names.end() || name == "sample units" ||
          name == "sampleunits";
 }
@@ -120,6 +107,9 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
     }
   } else if (name == "spacings") {
     header.spacings = numbers_in(value, file);
+  } else if (name == "axis mins" || name == "axismins" || name == "axis maxs" ||
+             name == "axismaxs") {
+    header.has_ends = true;
   } else if (name == "space directions") {
     header.directions = directions_in(value, file);
   } else if (name == "space origin") {
@@ -203,6 +193,12 @@ void set_geometry(const NrrdHeader& header, const std::vector<VolumeAxis>& axes,
   std::array<std::int64_t, 3> counts{};
   Eigen::Matrix3d lattice = Eigen::Matrix3d::Identity();
   geometry.has_size = !header.directions.empty() || !header.spacings.empty();
+  if (header.has_ends && !geometry.has_size && !choice.voxel_size) {
+    refuse_volume(path,
+                  "gives the size by \"axis mins\" and \"axis maxs\", which are not read. "
+                  "Give it by " +
+                      mention("voxel-size") + ", or save the volume with spacings.");
+  }
   std::size_t axis = 0;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     if (axes[k].kind != AxisKind::Space) continue;

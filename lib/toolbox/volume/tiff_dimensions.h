@@ -22,6 +22,7 @@ struct TiffLayout {
   /// Not above 0 if unknown. ImageJ's and tifffile's is along z; x and y come from the resolution.
   Vector3 voxel_size = Vector3::Zero();
   std::string unit;
+  std::string other_unit;  ///< of one axis only; empty: none has another
   /// All voxels are one block after the only page.
   bool may_be_one_block = false;
   std::int64_t offset = 0;      ///< to be added to each number

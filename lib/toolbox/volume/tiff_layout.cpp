@@ -68,6 +68,15 @@ void read_calibration(const ImageJText& text, TiffLayout& layout) {
   }
 }
 
+/// Reads the unit. ImageJ notes another unit of y or z beside it.
+void read_unit(const ImageJText& text, TiffLayout& layout) {
+  layout.unit = unit_of(text.value("unit"));
+  for (const char* key : {"yunit", "zunit"}) {
+    const std::string other = unit_of(text.value(key));
+    if (!other.empty() && other != layout.unit) layout.other_unit = other;
+  }
+}
+
 TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
                             std::int64_t samples, const std::string& path) {
   const ImageJText text(description);
@@ -100,8 +109,7 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
                             std::to_string(images) + " images. Export it again.");
   }
   read_calibration(text, layout);
-  const std::string unit = text.value("unit");
-  layout.unit = unit_of(unit);
+  read_unit(text, layout);
   // ImageJ omits a spacing of 1, and reads a missing spacing as 1.
   const std::optional<double> spacing = number_in(text.value("spacing"));
   if (layout.unit.empty() && !spacing) return layout;
@@ -112,6 +120,22 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   }
   return layout;
 }
+
+}  // namespace
+
+TiffLayout slice_layout(const std::string& description) {
+  TiffLayout layout;
+  if (description.rfind("ImageJ=", 0) != 0) return layout;
+  const ImageJText text(description);
+  read_calibration(text, layout);
+  read_unit(text, layout);
+  const std::optional<double> spacing = number_in(text.value("spacing"));
+  if (spacing) layout.voxel_size = Vector3::Constant(std::abs(*spacing));
+  if (spacing || !layout.unit.empty()) layout.writer = "ImageJ";
+  return layout;
+}
+
+namespace {
 
 /// Returns how many of the last dimensions belong to a page, its rows and columns, with its samples
 /// beside them or before them, or behind dimensions of one; 0 if none fit.

@@ -342,6 +342,11 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
   std::uint16_t unit = RESUNIT_INCH;
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
   geometry.size_source = layout.writer + "'s text";
+  if (!layout.other_unit.empty() && !choice.voxel_size) {
+    refuse_volume(file.path(), "has axes in " + in_quotes(layout.unit) + " and in " +
+                                   in_quotes(layout.other_unit) +
+                                   ". Give the size in one unit by " + mention("voxel-size") + ".");
+  }
   const bool is_by_imagej = layout.writer == "ImageJ";
   // Their texts have the size along z only. OME's has all.
   if (size.z() > 0.0 && resolution &&
@@ -542,11 +547,23 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
                                  slices.folder);
-  // The text of a single slice describes no stack, but its resolution is valid.
-  TiffLayout layout;
+  TiffLayout layout = slice_layout(first.description());
+  if (!layout.unit.empty() && layout.voxel_size.z() == 0.0) {
+    const std::optional<Vector3> resolution = voxel_of_resolution(first);
+    if (resolution) {
+      std::uint16_t unit = RESUNIT_INCH;
+      TIFFGetFieldDefaulted(first.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+      layout.voxel_size.z() = resolution->x() / (unit == RESUNIT_INCH ? 2.54 : 1.0);
+      layout.notes.push_back(
+          "ImageJ noted no distance of slices: along z as along x. Give another "
+          "by " +
+          mention("voxel-size", "X,Y,Z") + ".");
+    }
+  }
   set_lattice_of_tiff(geometry, first, page, layout, choice);
   std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(
       geometry, page, chosen_sample(page, channel, choice), slices.paths, std::move(pages));
+  volume->set_offset(layout.offset);
   add_notes(layout, choice, *volume);
   return volume;
 }
