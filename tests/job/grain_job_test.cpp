@@ -163,6 +163,24 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   EXPECT_EQ(content("out/grain5.txt"), "5");
   EXPECT_EQ(content("out/grain7.txt"), "7");
   EXPECT_EQ(content("out/grains.csv"), table);
+  // One of several files too.
+  job.folder = (folder_ / "more").string();
+  job.more_files = {{"tables", "csv"}};
+  const std::string more = (folder_ / "more/tables").string();
+  job.make = [&, make = job.make](GrainAtWork& grain) {
+    const JobFolder& place = grain.folders.front();
+    const std::vector<std::string> rows = make(grain);
+    write_file(place.file_of(grain.name, {"tables", "csv"}), grain.name);
+    return rows;
+  };
+  run_job(job, grains, {1});
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 0);
+  fs::remove(more + "/grain8.csv");
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 2) << "from grain 8 on";
+  EXPECT_EQ(content("more/tables/grain8.csv"), "folder/grain8.ply");
 }
 
 TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
@@ -188,6 +206,41 @@ TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
   EXPECT_EQ(content("out/grains.csv"), table);
   EXPECT_EQ(content("out/call.json"), batch.call);
   require_no_job((folder_ / "elsewhere").string());
+  // A table without a call: of a command that keeps none, or the user's.
+  for (GrainJob* job : {&batch, &other}) {
+    job->folder = (folder_ / "users").string();
+    fs::create_directories(job->folder);
+    write_file(job->folder + "/grains.csv", "mine\r\n1\r\n");
+    try {
+      run_job(*job, grains, {1});
+      FAIL() << "the table was replaced";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("a grains.csv of another command"),
+                std::string::npos)
+          << error.what();
+    }
+    EXPECT_EQ(content("users/grains.csv"), "mine\r\n1\r\n");
+    EXPECT_FALSE(fs::exists(folder_ / "users/call.json"));
+  }
+}
+
+TEST_F(Job, FilesOfAnEarlierCallDoNotStay) {
+  const auto file = [&](const std::string& name) { return (folder_ / name).string(); };
+  for (const char* name : {"1.ply", "2.ply", "3.ply", "mine.ply"}) write_file(file(name), "old");
+  fs::create_directories(folder_ / "deep");
+  write_file(file("deep/4.ply"), "old");
+  write_file(file("labels.csv"),
+             "label,file\r\n1,1.ply\r\n2,2.ply\r\n3,3.ply\r\n4,\r\n"
+             "5,deep/4.ply\r\n");
+  const OlderFiles older(folder_.string(), {"labels.csv", "bodies.csv"});
+  write_file(file("1.stl"), "new");
+  EXPECT_EQ(older.remove_but({"1.stl", "2.ply"}),
+            std::vector<std::string>{"1 file of the earlier call removed"});
+  EXPECT_FALSE(fs::exists(file("3.ply")));
+  for (const char* name : {"1.ply", "1.stl", "2.ply", "mine.ply", "deep/4.ply"}) {
+    EXPECT_TRUE(fs::exists(file(name))) << name;
+  }
+  EXPECT_TRUE(older.remove_but({"1.ply", "2.ply"}).empty());
 }
 
 // A scan that was replaced or repaired must not keep the result of the old one.
@@ -385,6 +438,38 @@ TEST_F(Job, RefusesFilesThatWouldReplaceEachOther) {
   MeshGrains grain(scan);
   EXPECT_THROW(run_job(job, grain, {1}), Error);
   EXPECT_EQ(content("scan.ply"), "a scan");
+  // That of another grain, by a file beside its own.
+  const std::string part = (folder_ / "scan_1.obj").string();
+  write_file(part, "another scan");
+  job.ending = "urdf";
+  job.beside = [](const std::string& file) {
+    return std::vector<std::string>{file.substr(0, file.size() - 5) + "_1.obj"};
+  };
+  JoinedGrains both({});
+  both.add(std::make_unique<MeshGrains>(scan));
+  both.add(std::make_unique<MeshGrains>(part));
+  EXPECT_THROW(run_job(job, both, {1}), Error);
+  EXPECT_EQ(content("scan_1.obj"), "another scan");
+}
+
+TEST_F(Job, OneTableHasOneUnit) {
+  class Sized : public Points {
+   public:
+    explicit Sized(std::string unit) : Points(1), unit_(std::move(unit)) {}
+    std::string unit() const override { return unit_; }
+
+   private:
+    std::string unit_;
+  };
+  JoinedGrains joined({});
+  for (const char* unit : {"", "um", "", "um"}) joined.add(std::make_unique<Sized>(unit));
+  EXPECT_EQ(joined.unit(), "um");
+  try {
+    joined.add(std::make_unique<Sized>("mm"));
+    FAIL() << "two units in one table";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("are in um, and of"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -127,6 +127,9 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   EXPECT_NE(scene.find("\"file\": \"b.csv\""), std::string::npos) << scene;
   EXPECT_NE(scene.find("\"size\": 0.2"), std::string::npos) << scene;
   EXPECT_TRUE(exists("out/b.csv"));
+  EXPECT_NE(scene.find("\"density\": 2650.0"), std::string::npos) << scene;
+  ASSERT_EQ(run("clump scans -k 2 -o dense --engine lammps --density 1").exit_code, 3);
+  EXPECT_NE(content("dense/scene.json").find("\"density\": 1.0"), std::string::npos);
   // What a person changed stays.
   std::ofstream(path("out/scene.json")) << "{}";
   EXPECT_EQ(run(call).exit_code, 3);

@@ -141,10 +141,38 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
   EXPECT_EQ(content("out/walls.vtu").rfind("<?xml", 0), 0U);
   EXPECT_NE(content("out/walls.msh").find("\"wall_3_8\""), std::string::npos);
   EXPECT_NE(content("out/walls.msh").find("\"grain_8\""), std::string::npos);
+  // Tables of others stay, and with them what they name.
+  for (const char* call : {"extract pair.nrrd out", "describe pair.nrrd -o out"}) {
+    EXPECT_NE(run(call).errors.find("a grains.csv of another command"), std::string::npos) << call;
+  }
+  EXPECT_EQ(rows("out/grains.csv", "grain"), grains);
+  // A call over the meshes of another segmentation leaves none of them.
+  volume_.fill_ball(3, {42, 30, 30}, 12.0);
+  test::write_bytes(folder_ / "one.nrrd", test::nrrd(volume_, "spacings: 0.5 0.5 0.5\n"));
+  const Outcome again = run("extract one.nrrd out --conforming --edge-length 1.5");
+  EXPECT_NE(again.output.find("1 file of the earlier call removed"), std::string::npos)
+      << again.output;
+  EXPECT_FALSE(exists("out/8.ply"));
+  ASSERT_EQ(run("extract pair.nrrd plain").exit_code, 0);
+  EXPECT_NE(run("extract one.nrrd plain").output.find("1 file of the earlier call removed"),
+            std::string::npos);
+  EXPECT_FALSE(exists("plain/8.ply"));
+  EXPECT_TRUE(exists("plain/3.ply"));
   const Outcome alone = run("extract pair.nrrd other --edge-length 1.5");
   EXPECT_NE(alone.exit_code, 0);
   EXPECT_NE(alone.errors.find("--edge-length is only for --conforming"), std::string::npos)
       << alone.errors;
+}
+
+TEST_F(Extract, LengthsOfTwoUnitsAreInNoTable) {
+  write_sample("mm.nrrd");
+  test::write_bytes(folder_ / "um.nrrd",
+                    test::nrrd(volume_, "spacings: 500 500 500\nspace units: \"um\"\n"));
+  const Outcome outcome = run("batch mm.nrrd um.nrrd -o both -n 40");
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.errors.find("are in mm, and of \"um.nrrd\" in um"), std::string::npos)
+      << outcome.errors;
+  EXPECT_FALSE(exists("both"));
 }
 
 TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {

@@ -65,6 +65,21 @@ TEST_F(FragmentCommand, WritesTheFormatsOfEngines) {
   EXPECT_NEAR(static_cast<double>(nodes), 80.0, 20.0) << "about the nodes";
 }
 
+TEST_F(FragmentCommand, LeavesNoFragmentOfAnEarlierCall) {
+  ASSERT_EQ(run("fragment grain.ply -k 5 -o out").exit_code, 0);
+  ASSERT_EQ(run("fragment grain.ply -k 3 -o out --format off").exit_code, 0);
+  const Outcome outcome = run("fragment grain.ply -k 3 -o out");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_FALSE(exists("out/fragment_4.ply"));
+  EXPECT_TRUE(exists("out/fragment_3.ply"));
+  EXPECT_TRUE(exists("out/fragment_3.off"));
+  std::ofstream(path("out/contacts.csv")) << "mine\n";
+  EXPECT_NE(run("fragment grain.ply -k 2 -o out").errors.find("a contacts.csv of another command"),
+            std::string::npos);
+  EXPECT_EQ(content("out/contacts.csv"), "mine\n");
+  EXPECT_TRUE(exists("out/fragment_3.ply"));
+}
+
 TEST_F(FragmentCommand, RemeshesWithCommonWalls) {
   const Outcome outcome = run("fragment grain.ply -k 4 -o out -n 100");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -100,7 +115,9 @@ TEST_F(FragmentCommand, IsRefusedAndLeavesFilesAsTheyWere) {
   open.triangles.resize(open.triangles.size() / 2);
   write_mesh(open, path("open.ply"));
   write_mesh(grain, path("fragment_2.ply"));
+  write_mesh(grain, path("fragment_1_1.obj"));
   const std::string before = content("fragment_2.ply");
+  const std::string part = content("fragment_1_1.obj");
   expect_refused("fragment",
                  {{"grain.ply -k 0 -o out", 2, "from 1 to 1000"},
                   {"grain.ply -k 1001 -o out", 2, "from 1 to 1000"},
@@ -113,10 +130,12 @@ TEST_F(FragmentCommand, IsRefusedAndLeavesFilesAsTheyWere) {
                   {"grain.ply -k 3 -o out --format tif", 2, "Rockable"},
                   {"grain.ply -k 3 -o out --density 0", 2, "ensity"},
                   {"fragment_2.ply -k 3 -o .", 2, "is the grain itself"},
+                  {"fragment_1_1.obj -k 3 -o . --format urdf", 2, "is the grain itself"},
                   {"absent.ply -k 3 -o out", 1, "absent.ply"},
                   {"open.ply -k 3 -o out", 1, ""}},
                  {"out", "fragment_1.ply", "fragments.csv"});
   EXPECT_EQ(content("fragment_2.ply"), before);
+  EXPECT_EQ(content("fragment_1_1.obj"), part);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ void copy_text(const std::filesystem::path& from, const std::filesystem::path& t
 /// gives their weights and sizes.
 std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
                                const GrainSource& grains, EngineShapes shapes,
-                               const FrameOptions& frame) {
+                               const FrameOptions& frame, double density) {
   const JobFolder folder = folders_of(job).front();
   std::vector<EngineGrain> list;
   for (std::size_t k = 0; k < grains.size(); ++k) {
@@ -54,7 +54,9 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
     if (arguments.sizes.empty()) copy_text(in / "sizes.csv", out / "sizes.csv");
   }
   if (!arguments.sizes.empty()) copy_text(arguments.sizes, out / "sizes.csv");
-  return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame);
+  const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
+  return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame,
+                             is_given ? density : engine_density);
 }
 
 }  // namespace
@@ -123,7 +125,7 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 }
 
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
-               const FrameOptions& frame, int threads, bool quiet) {
+               const FrameOptions& frame, double density, int threads, bool quiet) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
   job.long_names = inputs->volumes() > 1;
@@ -131,7 +133,7 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
   if (end.was_cancelled()) return 128 + noted_signal();
   print({end_line(job, end)}, quiet);
   if (!arguments.engine.empty() && arguments.shard.count == 1) {
-    const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame);
+    const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame, density);
     print({"Pack them: cd " + folders_of(job).front().path() + " && " + start}, quiet);
   }
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;

@@ -14,10 +14,11 @@ namespace wscvt::program {
 
 /// A sample as the input of a command that also works on one grain.
 struct ScanInputs {
-  std::vector<std::string> inputs;  ///< a scan, or inputs as of a batch
-  Shard shard;                      ///< of a sample
-  std::string engine;               ///< for which the folder is made ready; or empty
-  std::string sizes;                ///< file of a size curve of the packing; or empty
+  std::vector<std::string> inputs;       ///< a scan, or inputs as of a batch
+  Shard shard;                           ///< of a sample
+  std::string engine;                    ///< for which the folder is made ready; or empty
+  std::string sizes;                     ///< file of a size curve of the packing; or empty
+  const CLI::Option* density = nullptr;  ///< to know whether the command's density was given
 
   /// Whether there is anything except one mesh file, or the folder is for an engine.
   bool is_sample() const;
@@ -41,9 +42,9 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
                           const std::function<bool(const std::string&)>& is_file);
 
 /// Runs the job of a sample, prints its table's name, and returns the exit code. With an engine,
-/// writes what it needs, and prints the command that starts it.
+/// writes what it needs, with the density if it was given, and prints the command that starts it.
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
-               const FrameOptions& frame, int threads, bool quiet);
+               const FrameOptions& frame, double density, int threads, bool quiet);
 
 /// Returns the files of the inputs of a batch, see grain_files. Throws wscvt::Error for a file that
 /// is no volume and whose ending is that of no mesh.

@@ -88,9 +88,9 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
   add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option)
       ->group(finer_settings);
-  add_number(app, "--" + std::string(clump_density_option.key), arguments.job.density,
-             clump_density_option)
-      ->group(finer_settings);
+  arguments.sample.density = add_number(app, "--" + std::string(clump_density_option.key),
+                                        arguments.job.density, clump_density_option)
+                                 ->group(finer_settings);
   add_common_arguments(app, arguments.common);
   for (const char* name : {"--threads", "--quiet"}) {
     app.get_option(name)->group(finer_settings);
@@ -111,7 +111,7 @@ int run(const ClumpArguments& arguments) {
         [&] { check_sample_outputs(arguments.outputs, common.reports, "clumps", is_clump_name); });
     return run_sample(arguments.sample,
                       make_job(job, arguments.outputs.front(), arguments.sample.shard),
-                      EngineShapes::Clumps, job.frame, common.threads, common.quiet);
+                      EngineShapes::Clumps, job.frame, job.density, common.threads, common.quiet);
   }
   const std::string& scan = arguments.sample.inputs.front();
   checked([&] {

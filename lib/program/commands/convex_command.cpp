@@ -56,7 +56,8 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
   add_number(app, "-k,--count", arguments.job.convex.parts, convex_parts_option);
   add_number(app, "--faces", arguments.job.convex.faces, convex_faces_option);
   add_number(app, "--max-error", arguments.job.convex.tolerance, convex_tolerance_option);
-  add_number(app, "--density", arguments.job.density, parts_density_option);
+  arguments.sample.density =
+      add_number(app, "--density", arguments.job.density, parts_density_option);
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame);
   add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option);
@@ -86,11 +87,16 @@ int run(const ConvexArguments& arguments) {
     });
     return run_sample(arguments.sample,
                       make_job(job, arguments.outputs.front(), arguments.sample.shard),
-                      EngineShapes::Parts, job.frame, common.threads, common.quiet);
+                      EngineShapes::Parts, job.frame, job.density, common.threads, common.quiet);
   }
   const std::string& scan = arguments.sample.inputs.front();
   std::vector<NamedFile> outputs = named_reports(common.reports);
-  for (const std::string& output : arguments.outputs) outputs.push_back({"the parts", output});
+  for (const std::string& output : arguments.outputs) {
+    outputs.push_back({"the parts", output});
+    for (const std::string& part : parts_beside(output, job.convex.parts)) {
+      outputs.push_back({"a part of \"" + output + "\"", part});
+    }
+  }
   checked([&] {
     check_mesh_input(scan);
     for (const std::string& output : arguments.outputs) check_part_file(output);

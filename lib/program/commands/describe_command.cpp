@@ -19,7 +19,7 @@
 #include "toolbox/fabric/fabric.h"
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/fabric/fabric_page.h"
-#include "toolbox/job/grain_job.h"
+#include "toolbox/job/job_folder.h"
 #include "toolbox/report/parts_report.h"
 #include "toolbox/resolution/resolution.h"
 #include "toolbox/volume/open_volume.h"
@@ -167,6 +167,8 @@ void describe_labels(const DescribeArguments& arguments) {
   Work work(common.threads, common.quiet);
   const MadeFolder folder(arguments.folder);
   require_no_job(arguments.folder);
+  require_own_table(arguments.folder, "grains.csv", fabric_grains_csv(Fabric()));
+  require_own_table(arguments.folder, "contacts.csv", contacts_csv(Fabric()));
   check_writable(in_folder("contacts.csv"));
   FabricOptions options = arguments.fabric;
   options.scan = scan.get();

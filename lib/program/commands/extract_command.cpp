@@ -19,6 +19,7 @@
 #include "toolbox/conforming/conforming_files.h"
 #include "toolbox/conforming/conforming_grains.h"
 #include "toolbox/job/extract_job.h"
+#include "toolbox/job/job_folder.h"
 #include "toolbox/job/label_source.h"
 #include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
@@ -59,7 +60,9 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
     return (fs::path(arguments.folder) / name).string();
   };
   require_no_job(arguments.folder);
+  require_own_table(arguments.folder, "grains.csv", conforming_csv(ConformingGrains(), {}, {}));
   check_writable(in_folder("grains.csv"));
+  const OlderFiles older(arguments.folder, {"labels.csv", "grains.csv"});
   ConformingOptions options = arguments.walls;
   options.smoothing = arguments.job.volume.smoothing;
   const ConformingGrains result =
@@ -85,6 +88,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
   std::vector<std::string> lines = conforming_lines(result);
+  for (std::string& line : older.remove_but(files)) lines.push_back(std::move(line));
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
     std::vector<std::string> names;
     for (const Label label : labels) names.push_back(std::to_string(label));

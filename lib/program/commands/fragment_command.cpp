@@ -20,7 +20,7 @@
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/fragment/fragment_options.h"
-#include "toolbox/job/grain_job.h"
+#include "toolbox/job/job_folder.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"
 #include "wscvt/base/error.h"
@@ -129,8 +129,12 @@ int run(const FragmentArguments& arguments) {
     for (int k = 1; k <= read.count; ++k) {
       files.push_back("fragment_" + std::to_string(k) + "." + arguments.format);
       const std::string path = (folder / files.back()).string();
-      if (!same_file(path, arguments.grain)) continue;
-      refuse("\"" + path + "\" is the grain itself. Give another folder.");
+      std::vector<std::string> made = parts_beside(path, 1);
+      made.push_back(path);
+      for (const std::string& one : made) {
+        if (!same_file(one, arguments.grain)) continue;
+        refuse("\"" + one + "\" is the grain itself. Give another folder.");
+      }
     }
     return read;
   });
@@ -152,6 +156,9 @@ int run(const FragmentArguments& arguments) {
   const std::vector<std::string> about = fragment_lines(fragments);
   lines.insert(lines.begin(), about.begin(), about.end());
   require_no_job(arguments.folder);
+  require_own_table(arguments.folder, "fragments.csv", fragments_csv(Fragments(), {}));
+  require_own_table(arguments.folder, "contacts.csv", fragment_contacts_csv(Fragments()));
+  const OlderFiles older(arguments.folder, {"fragments.csv"});
   const MadeFolder made(arguments.folder);
   for (std::size_t k = 0; k < files.size(); ++k) {
     work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {
@@ -174,6 +181,7 @@ int run(const FragmentArguments& arguments) {
     return tetrahedra_in(meshes, "fragment", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
+  for (std::string& line : older.remove_but(files)) lines.push_back(std::move(line));
   work.print(warnings, lines);
   return Done;
 }

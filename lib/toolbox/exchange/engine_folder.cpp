@@ -50,7 +50,8 @@ bool takes(const EngineRow& engine, EngineShapes shapes) {
   return shapes == EngineShapes::Clumps ? engine.takes_clumps : engine.takes_parts;
 }
 
-std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOptions& frame) {
+std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOptions& frame,
+                       double density) {
   Json list = Json::array();
   for (const EngineGrain& grain : grains) {
     list.push_back({{"grain", grain.name}, {"file", grain.file}});
@@ -60,7 +61,7 @@ std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOption
                       {"container", {{"shape", "box"}, {"width", 0.0}}},
                       {"gravity", 9.81},
                       {"material",
-                       {{"density", 2650.0},
+                       {{"density", density},
                         {"young_modulus", 0.0},
                         {"poisson_ratio", 0.3},
                         {"friction", 0.5},
@@ -101,7 +102,7 @@ std::string_view engine_format(EngineShapes shapes) {
 
 std::string write_engine_folder(const std::string& folder, const std::string& engine,
                                 EngineShapes shapes, const std::vector<EngineGrain>& grains,
-                                const FrameOptions& frame) {
+                                const FrameOptions& frame, double density) {
   check_engine(engine, shapes);
   const std::filesystem::path in(folder);
   for (const EngineRow& row : engines()) {
@@ -112,7 +113,7 @@ std::string write_engine_folder(const std::string& folder, const std::string& en
     const std::filesystem::path scene = in / "scene.json";
     std::error_code ignored;
     if (!std::filesystem::exists(scene, ignored)) {
-      write_file(scene.string(), scene_text(grains, frame));
+      write_file(scene.string(), scene_text(grains, frame, density));
     }
     return row.command;
   }

@@ -22,6 +22,9 @@ void check_engine(const std::string& engine, EngineShapes shapes);
 /// for clumps, "obj" for parts. The files are in the principal frame.
 std::string_view engine_format(EngineShapes shapes);
 
+/// Density of quartz, kg/m^3, in scene.json unless another is given.
+inline constexpr double engine_density = 2650.0;
+
 /// A grain of a folder.
 struct EngineGrain {
   std::string name;  ///< as in grains.csv
@@ -36,6 +39,6 @@ struct EngineGrain {
 /// check_engine; InputOutput.
 std::string write_engine_folder(const std::string& folder, const std::string& engine,
                                 EngineShapes shapes, const std::vector<EngineGrain>& grains,
-                                const FrameOptions& frame);
+                                const FrameOptions& frame, double density = engine_density);
 
 }  // namespace wscvt

@@ -99,6 +99,16 @@ const std::vector<std::string>& part_endings() {
   return endings;
 }
 
+std::vector<std::string> parts_beside(const std::string& path, int count) {
+  std::vector<std::string> files;
+  if (ending_of(path) != ".urdf") return files;
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  for (int k = 1; k <= count; ++k) {
+    files.push_back((folder / part_name(path, static_cast<std::size_t>(k))).string());
+  }
+  return files;
+}
+
 void check_part_file(const std::string& path) {
   const std::vector<std::string>& endings = part_endings();
   if (std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end()) return;

@@ -23,6 +23,10 @@ inline constexpr NumberOption<double> parts_density_option = {
 /// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
 const std::vector<std::string>& part_endings();
 
+/// Returns the files that write_parts makes beside a .urdf of at most `count` parts; of other
+/// formats none.
+std::vector<std::string> parts_beside(const std::string& path, int count);
+
 /// Throws Error(InvalidInput), with the endings, for a name with another ending.
 void check_part_file(const std::string& path);
 

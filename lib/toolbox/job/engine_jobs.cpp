@@ -81,6 +81,9 @@ GrainJob make_job(const ConvexJob& options, const std::string& folder, const Sha
   job.folder = folder;
   job.shard = shard;
   job.ending = options.format;
+  job.beside = [count = options.convex.parts](const std::string& file) {
+    return parts_beside(file, count);
+  };
   job.call = call_text("wscvt-convex", "parts", options,
                        {{"convex",
                          {{"count", options.convex.parts},

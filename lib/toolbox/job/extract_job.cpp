@@ -266,8 +266,8 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   if (job.shard.count > 1) return {};
   const JobFolder folder = folders_of(job).front();
   std::map<std::string, std::string> records;
-  std::ifstream table(folder.table(), std::ios::binary);
-  CsvReader reader(table);
+  std::ifstream rows(folder.table(), std::ios::binary);
+  CsvReader reader(rows);
   std::vector<std::string> fields;
   while (reader.next(fields)) records[fields.front()] = reader.text();
   const std::string census = grains.census([&](const std::string& grain) -> MadeGrain {
@@ -276,11 +276,16 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
     if (!error.empty()) return {"", "", error};
     return {folder.name_of(grain), record};
   });
-  write_file(folder.file(options.table, ".csv"), census);
-  table.close();
+  const std::string table = folder.file(options.table, ".csv");
+  const OlderFiles older(folder.path(), {options.table + ".csv"});
+  write_file(table, census);
+  rows.close();
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
   std::vector<std::string> lines = {line_of(census, options.table)};
+  for (std::string& line : older.remove_but(files_named_in(table))) {
+    lines.push_back(std::move(line));
+  }
   if (options.describe) append_voxel_lines(folder, lines);
   return lines;
 }

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -25,17 +26,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the name of a file without folders and endings.
-std::string stem_of(const std::string& file) {
-  fs::path name = fs::path(file).filename();
-  if (ending_of(file) == ".gz") name = name.stem();
-  return name.stem().string();
-}
-
 /// Refuses grains whose files would replace each other, or a scan.
-void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
+void check_files(const JobFolder& folder, const GrainJob& job,
                  const std::vector<std::string>& grains) {
   std::map<std::string, const std::string*> made;
+  std::set<fs::path> scans;
+  std::error_code missing;
+  if (job.beside) {
+    for (const std::string& grain : grains) scans.insert(fs::weakly_canonical(grain, missing));
+  }
   for (const std::string& grain : grains) {
     const auto [other, is_new] = made.emplace(folder.file_of(grain), &grain);
     if (!is_new) {
@@ -45,13 +44,20 @@ void check_files(const JobFolder& folder, const std::vector<JobFiles>& more,
     const auto is_scan = [&](const std::string& file) {
       return same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
     };
-    bool replaces_scan = is_scan(other->first);
-    for (const JobFiles& files : more) {
-      replaces_scan = replaces_scan || is_scan(folder.file_of(grain, files));
+    const auto refuse_replacing = [&](const std::string& scan) {
+      refuse("The files of \"" + grain + "\" would replace the scan" + scan +
+             ". Give another folder with " + mention("output") + ", or another " +
+             mention("format") + ".");
+    };
+    if (is_scan(other->first)) refuse_replacing("");
+    for (const JobFiles& files : job.more_files) {
+      if (is_scan(folder.file_of(grain, files))) refuse_replacing("");
     }
-    if (replaces_scan) {
-      refuse("The files of \"" + grain + "\" would replace the scan. Give another folder with " +
-             mention("output") + ", or another " + mention("format") + ".");
+    if (!job.beside) continue;
+    for (const std::string& file : job.beside(other->first)) {
+      const bool is_there = fs::exists(file, missing);
+      if (!is_there || scans.count(fs::weakly_canonical(file, missing)) == 0) continue;
+      refuse_replacing(" \"" + file + "\"");
     }
   }
 }
@@ -70,18 +76,8 @@ bool is_begun(const JobFolder& folder, const std::string& table_name) {
   return false;
 }
 
-/// Returns the format of a call, such as "wscvt-batch"; empty if the text is none.
-std::string format_of_call(const std::string& text) {
-  const Json call = Json::parse(text, nullptr, false);
-  return call.is_object() ? call.value("format", "") : "";
-}
-
-[[noreturn]] void refuse_folder(const std::string& folder, const std::string& format) {
-  refuse("The folder \"" + folder + "\" has the results of another command (" + format +
-         "), which would be replaced. Give another folder with " + mention("output") + ".");
-}
-
-/// Returns whether the folder has the options of a job. Throws Error if it is kept with others.
+/// Returns whether the folder has the options of a job. Throws Error if it is kept with others, or
+/// has a table of another command.
 bool has_call(const JobFolder& folder, const GrainJob& job) {
   const std::string path = folder.file("call", ".json");
   errno = 0;
@@ -91,7 +87,13 @@ bool has_call(const JobFolder& folder, const GrainJob& job) {
   if (before == job.call) return true;
   const std::string other = format_of_call(before);
   if (!other.empty() && other != format_of_call(job.call)) refuse_folder(folder.path(), other);
-  if (job.is_kept && is_begun(folder, job.tables.front().name)) {
+  const JobTable& first = job.tables.front();
+  if (before.empty() || !job.is_kept) {
+    const std::string table = fs::path(folder.file(first.name, ".csv")).filename().string();
+    require_own_table(folder.path(), table, first.header);
+  }
+  if (job.is_kept && is_begun(folder, first.name)) {
+    if (before.empty()) refuse_folder(folder.path(), "its call.json is missing");
     refuse("The folder is of a call with other options or of another version: see \"" + path +
            "\". Use the options of that file, or give another folder with " + mention("output") +
            ".");
@@ -242,18 +244,18 @@ class JobTables {
  public:
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed job
   /// may have added a row to only some of them. With `scans`, also cuts them at the first grain
-  /// whose file is missing, empty or older than its scan, so that it is made again. A grain that
-  /// failed has no file: its table tells the time.
-  JobTables(const std::vector<JobFolder>& folders, const std::vector<JobTable>& tables,
+  /// one of whose files is missing, empty or older than its scan, so that it is made again. A grain
+  /// that failed has no file: its table tells the time.
+  JobTables(const std::vector<JobFolder>& folders, const GrainJob& job,
             const std::vector<std::string>& grains, const ScanTimes* scans)
       : rows_(grains.size()) {
-    const std::string first = folders.front().file(tables.front().name, ".csv");
+    const std::string first = folders.front().file(job.tables.front().name, ".csv");
     std::vector<bool> is_old_failure(grains.size(), false);  // opening a table may change its time
     for (std::size_t k = 0; scans != nullptr && k < grains.size(); ++k) {
       is_old_failure[k] = scans->is_old(k, first);
     }
     for (const JobFolder& folder : folders) {
-      for (const JobTable& table : tables) {
+      for (const JobTable& table : job.tables) {
         tables_.push_back(
             std::make_unique<SampleTable>(folder.file(table.name, ".csv"), table.header, grains));
         rows_ = std::min(rows_, tables_.back()->rows());
@@ -264,7 +266,11 @@ class JobTables {
           tables_.front()->is_failed(k)
               ? is_old_failure[k]
               : std::any_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
-                  return scans->is_old(k, folder.file_of(grains[k]));
+                  return scans->is_old(k, folder.file_of(grains[k])) ||
+                         std::any_of(job.more_files.begin(), job.more_files.end(),
+                                     [&](const JobFiles& files) {
+                                       return scans->is_old(k, folder.file_of(grains[k], files));
+                                     });
                 });
       if (is_old) rows_ = k;
     }
@@ -324,35 +330,6 @@ GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, Grai
 
 }  // namespace
 
-JobFolder::JobFolder(fs::path folder, const std::string& ending, const Shard& shard,
-                     bool long_names)
-    : folder_(std::move(folder)), ending_("." + ending), long_names_(long_names) {
-  if (shard.count > 1) {
-    part_ = "-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count);
-  }
-}
-
-std::string JobFolder::word_of(const std::string& grain) const {
-  const fs::path name(grain);
-  // Only a label or a body has no ending.
-  const bool is_long = long_names_ && !name.filename().has_extension() && name.has_parent_path();
-  return (is_long ? stem_of(name.parent_path().string()) + "-" : "") + stem_of(grain);
-}
-
-std::string JobFolder::name_of(const std::string& grain) const { return word_of(grain) + ending_; }
-
-std::string JobFolder::file_of(const std::string& grain, const JobFiles& files) const {
-  return (folder_ / files.folder / (word_of(grain) + "." + files.ending)).string();
-}
-
-std::string JobFolder::file_of(const std::string& grain) const {
-  return (folder_ / name_of(grain)).string();
-}
-
-std::string JobFolder::file(const std::string& name, const std::string& ending) const {
-  return (folder_ / (name + part_ + ending)).string();
-}
-
 std::vector<JobFolder> folders_of(const GrainJob& job) {
   std::vector<JobFolder> folders;
   for (const std::string& level : job.levels) {
@@ -364,19 +341,12 @@ std::vector<JobFolder> folders_of(const GrainJob& job) {
   return folders;
 }
 
-void require_no_job(const std::string& folder) {
-  std::ifstream file(fs::path(folder) / "call.json", std::ios::binary);
-  const std::string call((std::istreambuf_iterator<char>(file)), {});
-  const std::string format = format_of_call(call);
-  if (!format.empty()) refuse_folder(folder, format);
-}
-
 JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   const JobFolder whole(job.folder, job.ending, job.shard);
   const std::vector<JobFolder> folders = folders_of(job);
   std::vector<std::string> names(grains.size());
   for (std::size_t k = 0; k < names.size(); ++k) names[k] = grains.name(k);
-  for (const JobFolder& folder : folders) check_files(folder, job.more_files, names);
+  for (const JobFolder& folder : folders) check_files(folder, job, names);
   std::error_code ignored;  // the first write into the folder reports it
   fs::create_directories(whole.path(), ignored);
   const PartRows parts(job, folders);
@@ -393,7 +363,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
     }
   }
   const ScanTimes scans(grains);
-  JobTables tables(folders, job.tables, names, job.is_kept ? &scans : nullptr);
+  JobTables tables(folders, job, names, job.is_kept ? &scans : nullptr);
   remove_partial_file(whole.file("call", ".json"));
   remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {

@@ -1,51 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "toolbox/job/grain_files.h"
 #include "toolbox/job/grain_run.h"
 #include "toolbox/job/grain_source.h"
+#include "toolbox/job/job_folder.h"
 #include "wscvt/base/execution.h"
 
 namespace wscvt {
-
-/// A file of each grain in a folder of its kind.
-struct JobFiles {
-  std::string folder;  ///< inside the folder of the job or the level
-  std::string ending;  ///< without the point
-};
-
-/// Names of the files of a job in one folder: a file per grain, and tables. The names of the tables
-/// of a part of a sample end in "-I-of-N".
-class JobFolder {
- public:
-  /// `ending` of the files of grains, without the point. With `long_names`, the file of a label or
-  /// a body is named after its volume or mesh too: "sample-12".
-  JobFolder(std::filesystem::path folder, const std::string& ending, const Shard& shard,
-            bool long_names = false);
-
-  std::string path() const { return folder_.string(); }
-  /// Path of the file of a grain.
-  std::string file_of(const std::string& grain) const;
-  std::string file_of(const std::string& grain, const JobFiles& files) const;
-  /// Name of the file of a grain, without the folder.
-  std::string name_of(const std::string& grain) const;
-  /// Path of a table or a summary: "grains", ".csv".
-  std::string file(const std::string& name, const std::string& ending) const;
-  std::string table() const { return file("grains", ".csv"); }
-
- private:
-  std::string word_of(const std::string& grain) const;
-
-  std::filesystem::path folder_;
-  std::string ending_;  ///< with the point
-  std::string part_;
-  bool long_names_;
-};
 
 /// A grain of a job, at work.
 struct GrainAtWork {
@@ -71,6 +36,8 @@ struct GrainJob {
   Shard shard;         ///< of which the source has the grains
   std::string ending;  ///< of the files of grains, without the point
   std::vector<JobFiles> more_files;
+  /// Returns the files that are made beside the file of a grain, as many as there may be; none: {}.
+  std::function<std::vector<std::string>(const std::string& file)> beside;
   /// Folders in the folder, such as n100, each with all files and tables. Empty: no such folders.
   std::vector<std::string> levels;
   std::string call;              ///< options that must be equal when the job is started again; JSON
@@ -93,10 +60,6 @@ struct GrainJob {
 
 /// Returns the folders of the levels; if there are no levels, the folder of the job.
 std::vector<JobFolder> folders_of(const GrainJob& job);
-
-/// Throws Error(InvalidInput) if a job keeps its results in this folder. For commands that write
-/// other files there.
-void require_no_job(const std::string& folder);
 
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.

@@ -58,6 +58,14 @@ GrainScan NamedGrains::read(std::size_t grain, bool /*with_pictures*/, const Exe
 }
 
 void JoinedGrains::add(std::unique_ptr<GrainSource> source) {
+  const std::string own = source->unit();
+  for (const auto& other : sources_) {
+    const std::string known = other->unit();
+    if (known.empty() || own.empty() || known == own) continue;
+    refuse("Lengths of \"" + other->file(0) + "\" are in " + known + ", and of \"" +
+           source->file(0) + "\" in " + own +
+           ". One table has one unit: use one call for each, or convert one.");
+  }
   for (std::size_t grain = 0; grain < source->size(); ++grain) {
     if (is_of(shard_, source->name(grain))) places_.push_back({sources_.size(), grain});
   }
@@ -93,6 +101,14 @@ std::string JoinedGrains::census(const MadeOf& made_of) const {
     joined += joined.empty() || table.empty() ? table : table.substr(table.find("\r\n") + 2);
   }
   return joined;
+}
+
+std::string JoinedGrains::unit() const {
+  for (const auto& source : sources_) {
+    std::string known = source->unit();
+    if (!known.empty()) return known;
+  }
+  return {};
 }
 
 double JoinedGrains::left_out() const {

@@ -69,6 +69,9 @@ class GrainSource {
   /// Returns the fraction of the source that belongs to grains but is in none.
   virtual double left_out() const { return 0.0; }
 
+  /// Returns the unit of all lengths; empty: not known.
+  virtual std::string unit() const { return {}; }
+
   /// Returns the number of volumes and meshes whose labels and bodies are grains.
   virtual std::size_t volumes() const { return 0; }
 };
@@ -126,6 +129,8 @@ class MeshGrains : public GrainSource {
 class JoinedGrains : public GrainSource {
  public:
   explicit JoinedGrains(const Shard& shard) : shard_(shard) {}
+  /// Throws Error(InvalidInput) if the unit of its lengths is known and another than that of a
+  /// source before: one table has one unit.
   void add(std::unique_ptr<GrainSource> source);
 
   std::size_t size() const override { return places_.size(); }
@@ -134,7 +139,8 @@ class JoinedGrains : public GrainSource {
   void want(const std::vector<std::size_t>& grains) override;
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::string census(const MadeOf& made_of) const override;
-  double left_out() const override;  ///< the largest of the sources
+  double left_out() const override;   ///< the largest of the sources
+  std::string unit() const override;  ///< the first that is known
   std::size_t volumes() const override;
 
  private:

@@ -26,6 +26,7 @@ class LabelSource : public GrainSource {
   GrainScan read(std::size_t grain, bool with_pictures, const Execution& execution) override;
   std::string census(const MadeOf& made_of) const override;
   double left_out() const override { return grains_->left_out(); }
+  std::string unit() const override { return grains_->geometry().unit; }
   std::size_t volumes() const override { return 1; }
 
  private:

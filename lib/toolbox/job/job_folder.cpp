@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toolbox/job/job_folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "toolbox/sample/csv_reader.h"
+#include "wscvt/base/error.h"
+#include "wscvt/report/json.h"
+
+namespace wscvt {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns the name of a file without folders and endings.
+std::string stem_of(const std::string& file) {
+  fs::path name = fs::path(file).filename();
+  if (ending_of(file) == ".gz") name = name.stem();
+  return name.stem().string();
+}
+
+}  // namespace
+
+std::string format_of_call(const std::string& text) {
+  const Json call = Json::parse(text, nullptr, false);
+  return call.is_object() ? call.value("format", "") : "";
+}
+
+JobFolder::JobFolder(fs::path folder, const std::string& ending, const Shard& shard,
+                     bool long_names)
+    : folder_(std::move(folder)), ending_("." + ending), long_names_(long_names) {
+  if (shard.count > 1) {
+    part_ = "-" + std::to_string(shard.index) + "-of-" + std::to_string(shard.count);
+  }
+}
+
+std::string JobFolder::word_of(const std::string& grain) const {
+  const fs::path name(grain);
+  // Only a label or a body has no ending.
+  const bool is_long = long_names_ && !name.filename().has_extension() && name.has_parent_path();
+  return (is_long ? stem_of(name.parent_path().string()) + "-" : "") + stem_of(grain);
+}
+
+std::string JobFolder::name_of(const std::string& grain) const { return word_of(grain) + ending_; }
+
+std::string JobFolder::file_of(const std::string& grain, const JobFiles& files) const {
+  return (folder_ / files.folder / (word_of(grain) + "." + files.ending)).string();
+}
+
+std::string JobFolder::file_of(const std::string& grain) const {
+  return (folder_ / name_of(grain)).string();
+}
+
+std::string JobFolder::file(const std::string& name, const std::string& ending) const {
+  return (folder_ / (name + part_ + ending)).string();
+}
+
+void refuse_folder(const std::string& folder, const std::string& other) {
+  refuse("The folder \"" + folder + "\" has the results of another command (" + other +
+         "), which would be replaced. Give another folder with " + mention("output") + ".");
+}
+
+void require_no_job(const std::string& folder) {
+  std::ifstream file(fs::path(folder) / "call.json", std::ios::binary);
+  const std::string call((std::istreambuf_iterator<char>(file)), {});
+  const std::string format = format_of_call(call);
+  if (!format.empty()) refuse_folder(folder, format);
+}
+
+void require_own_table(const std::string& folder, const std::string& table,
+                       const std::string& header) {
+  std::ifstream file(fs::path(folder) / table, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line) || line + "\n" == header) return;
+  refuse("The folder \"" + folder + "\" has a " + table +
+         " of another command, which would be replaced. Give another folder with " +
+         mention("output") + ".");
+}
+
+std::vector<std::string> files_named_in(const std::string& table) {
+  std::ifstream file(table, std::ios::binary);
+  CsvReader reader(file);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) return {};
+  const auto found = std::find(fields.begin(), fields.end(), "file");
+  if (found == fields.end()) return {};
+  const auto column = static_cast<std::size_t>(found - fields.begin());
+  std::vector<std::string> names;
+  while (reader.next(fields)) names.push_back(column < fields.size() ? fields[column] : "");
+  return names;
+}
+
+OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& tables)
+    : folder_(std::move(folder)) {
+  for (const std::string& table : tables) {
+    for (std::string& name : files_named_in((folder_ / table).string())) {
+      // A path elsewhere is not of these tables.
+      if (!name.empty() && fs::path(name).filename() == name) files_.push_back(std::move(name));
+    }
+  }
+}
+
+std::vector<std::string> OlderFiles::remove_but(const std::vector<std::string>& kept) const {
+  std::set<fs::path> stems;
+  for (const std::string& name : kept) stems.insert(fs::path(name).stem());
+  std::size_t removed = 0;
+  for (const std::string& name : files_) {
+    if (stems.count(fs::path(name).stem()) > 0) continue;
+    std::error_code ignored;
+    if (fs::remove(folder_ / name, ignored)) ++removed;
+  }
+  if (removed == 0) return {};
+  return {std::to_string(removed) + (removed == 1 ? " file" : " files") +
+          " of the earlier call removed"};
+}
+
+}  // namespace wscvt
