@@ -40,35 +40,76 @@ double plateau_of(const Greys& greys, std::size_t begin, std::size_t end, const 
   return at(count / 2);
 }
 
-/// Returns the grey value of each basin.
-std::vector<double> plateaus_of(const std::vector<std::uint16_t>& grey,
-                                const std::vector<std::uint8_t>& mask, const Basins& basins,
-                                double voxel, const Phases& phases) {
-  const std::vector<std::uint32_t>& labels = basins.labels;
-  const std::size_t count = *std::max_element(labels.begin(), labels.end()) + std::size_t{1};
-  std::vector<double> radii(count, 0.0);
-  const auto depth = [&](std::size_t k) { return basins.step * basins.distances[k] / voxel; };
+/// The mask by basins, and how deep each voxel is below its surface.
+struct Depths {
+  const std::vector<std::uint16_t>& grey;
+  const std::vector<std::uint8_t>& mask;
+  const Basins& basins;
+  double voxel;
+
+  double of(std::size_t k) const { return basins.step * basins.distances[k] / voxel; }
+};
+
+/// Calls take(label, shell, begin, end) for each basin with the grey values, in ascending order, of
+/// a shell below its surface; depths in voxels. Of small basins the shell begins at a part of their
+/// radius.
+template <class Take>
+void for_each_shell(const Depths& depths, double begin_of_shell, double thickness,
+                    const Take& take) {
+  constexpr double of_radius = 0.75;
+  const std::vector<std::uint32_t>& labels = depths.basins.labels;
+  std::vector<double> radii(*std::max_element(labels.begin(), labels.end()) + std::size_t{1}, 0.0);
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    radii[labels[k]] = std::max(radii[labels[k]], depth(k));
+    radii[labels[k]] = std::max(radii[labels[k]], depths.of(k));
   }
+  Greys shell;
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    if (depths.mask[k] == 0) continue;
+    const double begin = std::min(begin_of_shell, of_radius * radii[labels[k]]);
+    if (depths.of(k) >= begin && depths.of(k) <= begin + thickness) {
+      shell.emplace_back(labels[k], depths.grey[k]);
+    }
+  }
+  std::sort(shell.begin(), shell.end());
+  for (std::size_t begin = 0; begin < shell.size();) {
+    std::size_t end = begin;
+    while (end < shell.size() && shell[end].first == shell[begin].first) ++end;
+    take(shell[begin].first, shell, begin, end);
+    begin = end;
+  }
+}
+
+/// Returns the grey value of each basin.
+std::vector<double> plateaus_of(const Depths& depths, const Phases& phases) {
+  const std::vector<std::uint32_t>& labels = depths.basins.labels;
+  std::vector<double> plateaus(*std::max_element(labels.begin(), labels.end()) + std::size_t{1},
+                               phases.materials.front());
   // Below the blur. A bright grain's surface is about a voxel below the mask's.
   constexpr double begin_of_shell = 2.5;
   constexpr double thickness = 2.5;
-  constexpr double of_radius = 0.75;  // of small basins
-  Greys inner;
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (mask[k] == 0) continue;
-    const double begin = std::min(begin_of_shell, of_radius * radii[labels[k]]);
-    if (depth(k) >= begin && depth(k) <= begin + thickness) inner.emplace_back(labels[k], grey[k]);
-  }
-  std::sort(inner.begin(), inner.end());
-  std::vector<double> plateaus(count, phases.materials.front());
-  for (std::size_t begin = 0; begin < inner.size();) {
-    std::size_t end = begin;
-    while (end < inner.size() && inner[end].first == inner[begin].first) ++end;
-    plateaus[inner[begin].first] = plateau_of(inner, begin, end, phases);
-    begin = end;
-  }
+  const auto middle = [](const Greys& shell, std::size_t begin, std::size_t end) {
+    return static_cast<double>(shell[begin + (end - begin) / 2].second);
+  };
+  std::vector<double> inner = plateaus;
+  for_each_shell(depths, begin_of_shell, thickness,
+                 [&](std::uint32_t label, const Greys& shell, std::size_t begin, std::size_t end) {
+                   plateaus[label] = plateau_of(shell, begin, end, phases);
+                   inner[label] = middle(shell, begin, end);
+                 });
+  // A coat that is farther from the void, such as of iron oxide: the surface is half way to it.
+  constexpr double begin_of_coat = 1.25;
+  constexpr double thickness_of_coat = 1.0;
+  constexpr double clear = 1.15;  // a blurred edge makes less of it, not more
+  const double sign = phases.materials.front() < phases.space ? -1.0 : 1.0;
+  for_each_shell(
+      depths, begin_of_coat, thickness_of_coat,
+      [&](std::uint32_t label, const Greys& shell, std::size_t begin, std::size_t end) {
+        const double coat = middle(shell, begin, end);
+        if (!(sign * (coat - phases.space) > sign * clear * (inner[label] - phases.space))) return;
+        // A thin coat is blurred on both sides: nearly its farthest values.
+        const std::size_t tenth = (end - begin) / 10;
+        plateaus[label] = shell[sign > 0.0 ? end - 1 - tenth : begin + tenth].second;
+      });
   return plateaus;
 }
 
@@ -112,20 +153,18 @@ void grow(std::vector<std::uint32_t>& labels, const VoxelCounts& counts) {
 
 /// Sets plateaus that are not those of the surface to the phase nearest to the void: where more
 /// voxels are on the side of the void than a blurred edge has, a rim lies around an inclusion.
-void correct_rims(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& mask,
-                  const Basins& basins, double voxel, const Phases& phases,
-                  std::vector<double>& plateaus) {
+void correct_rims(const Depths& depths, const Phases& phases, std::vector<double>& plateaus) {
   // Voxels of the edge for each at the surface: up to 2.1 among 290 grains of 1.1 to 5 times the
   // usual contrast, by blurs of .8 voxels.
   constexpr double thickest = 2.3;
   std::vector<std::array<std::size_t, 2>> found(plateaus.size(), {0, 0});
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (mask[k] == 0) continue;
-    const std::uint32_t label = basins.labels[k];
-    const double depth = basins.step * basins.distances[k] / voxel;
+  for (std::size_t k = 0; k < depths.grey.size(); ++k) {
+    if (depths.mask[k] == 0) continue;
+    const std::uint32_t label = depths.basins.labels[k];
+    const double depth = depths.of(k);
     const double full = plateaus[label] - phases.space;
     if (depth < 1.1) ++found[label][0];
-    if (depth <= 2.0 * reach && (grey[k] - phases.space) / full < 0.5) ++found[label][1];
+    if (depth <= 2.0 * reach && (depths.grey[k] - phases.space) / full < 0.5) ++found[label][1];
   }
   for (std::size_t k = 1; k < plateaus.size(); ++k) {
     if (static_cast<double>(found[k][1]) > thickest * static_cast<double>(found[k][0])) {
@@ -140,8 +179,9 @@ std::vector<std::uint16_t> even_contrast(const std::vector<std::uint16_t>& grey,
                                          const std::vector<std::uint8_t>& mask,
                                          const std::vector<std::uint8_t>& left_out, Basins basins,
                                          const VoxelCounts& counts, double voxel, Phases phases) {
-  std::vector<double> plateaus = plateaus_of(grey, mask, basins, voxel, phases);
-  correct_rims(grey, mask, basins, voxel, phases, plateaus);
+  const Depths depths = {grey, mask, basins, voxel};
+  std::vector<double> plateaus = plateaus_of(depths, phases);
+  correct_rims(depths, phases, plateaus);
   grow(basins.labels, counts);
   phases.space = space_of(grey, left_out, basins.labels, phases.space);
   std::vector<std::uint16_t> even(grey.size());
