@@ -197,7 +197,8 @@ TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   EXPECT_EQ(parted.errors, "");
   EXPECT_EQ(parted.output.substr(parted.output.find('\n') + 1),
             "Voxel size not in the file: lengths in voxels. Give it by --voxel-size.\n"
-            "2 labels: 2 written\n");
+            "2 labels: 2 written\n1 file of the earlier call removed\n");
+  EXPECT_FALSE(exists("out/255.ply"));
   table = rows("out/labels.csv", "label");
   EXPECT_EQ(table["1"]["voxels"], std::to_string(other));
   EXPECT_EQ(table["2"]["voxels"], std::to_string(ball));

@@ -129,6 +129,24 @@ TEST(GrainGrower, GrowsTheSameOfTurnedInputs) {
   }
 }
 
+// An engine takes the origin for the centre of mass and the axes for the principal ones.
+TEST(GrainGrower, MeshesOfFewNodesStandInTheirOwnPrincipalFrame) {
+  const SampleGrids grids(degree);
+  const std::vector<SampleGrain> sample = test::random_sample(8, grids, 3);
+  const GrainGrower grower(sample, grids, grown_with(3, 9));
+  const GrownMeshes meshes(60, Execution(1));
+  for (std::size_t k = 0; k < 5; ++k) {
+    const GrownBody body = grow_body(grower, meshes, k);
+    const ShapeDescriptors shape = describe_shape(body.mesh, Execution(1));
+    EXPECT_LT(shape.centroid.norm(), 1e-12 * body.grain.radius);
+    const Eigen::Matrix3d& tensor = shape.inertia_tensor;
+    const Eigen::Vector3d moments = tensor.diagonal();
+    EXPECT_LT((tensor - Eigen::Matrix3d(moments.asDiagonal())).norm(), 1e-10 * moments.norm());
+    EXPECT_LE(moments[0], moments[1]);
+    EXPECT_LE(moments[1], moments[2]);
+  }
+}
+
 // The distance that two samples of 200 reach by chance in 1 of 1,000 is .195. Without the
 // amplitudes that of convexity is above .5.
 TEST(GrainGrower, KeepsTheDistributionsOfGrainsThatItHasNotSeen) {

@@ -46,11 +46,6 @@ IndexedMesh GrownMeshes::mesh(const std::vector<double>& radial, double radius,
   SphereTriangulation triangulation(directions, triangles_, one_thread);
   triangulation.restore_surface_delaunay(directions, mesh.points, one_thread);
   mesh.triangles = triangulation.triangles();
-  if (has_offset(offset)) {
-    // Truncating the series removes more from one side of a hook than from the other.
-    const Vector3 centroid = describe_shape(mesh, one_thread).centroid;
-    for (Vector3& point : mesh.points) point -= centroid;
-  }
   const double scale = radius * portable::cbrt(4.0 * pi / 3.0 / volume_of(mesh, one_thread));
   for (Vector3& point : mesh.points) point *= scale;
   return mesh;
@@ -62,6 +57,11 @@ GrownBody grow_body(const GrainGrower& grower, const GrownMeshes& meshes, std::s
     body.mesh = meshes.mesh(grain.radial, grain.radius, grain.offset);
     return !has_offset(grain.offset) || self_intersections(body.mesh).empty();
   });
+  // The series has its own frame; that of a mesh of few nodes, or of a truncated series, is
+  // another.
+  const MassProperties mass = mass_properties(describe_shape(body.mesh, Execution(1)));
+  const Eigen::Matrix3d to_axes = mass.principal_axes.toRotationMatrix().transpose();
+  for (Vector3& point : body.mesh.points) point = to_axes * (point - mass.centroid);
   return body;
 }
 

@@ -17,8 +17,8 @@ class GrownMeshes {
   /// one half of the sphere.
   GrownMeshes(int nodes, const Execution& execution);
 
-  /// Returns a closed, outward mesh with exactly the number of nodes, in the principal frame about
-  /// the origin, with exactly the volume of the sphere of `radius`; length. The triangles are
+  /// Returns a closed, outward mesh with exactly the number of nodes, in the frame of the series,
+  /// with exactly the volume of the sphere of `radius`; length. The triangles are
   /// intrinsic Delaunay on it. With few nodes, a grain with an offset may intersect itself. May be
   /// called from several threads.
   IndexedMesh mesh(const std::vector<double>& radial, double radius,
@@ -29,7 +29,7 @@ class GrownMeshes {
   std::vector<Triangle> triangles_;
 };
 
-/// A virtual grain with its mesh.
+/// A virtual grain with its mesh, which is in its own principal frame about the origin.
 struct GrownBody {
   GrownGrain grain;
   IndexedMesh mesh;
