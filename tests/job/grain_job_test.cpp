@@ -234,13 +234,14 @@ TEST_F(Job, FilesOfAnEarlierCallDoNotStay) {
              "5,deep/4.ply\r\n");
   const OlderFiles older(folder_.string(), {"labels.csv", "bodies.csv"});
   write_file(file("1.stl"), "new");
-  EXPECT_EQ(older.remove_but({"1.stl", "2.ply"}),
+  EXPECT_TRUE(older.remove_but({"1.stl", "2.ply"}, file("3.ply")).empty()) << "the input stays";
+  EXPECT_EQ(older.remove_but({"1.stl", "2.ply"}, file("2.ply")),
             std::vector<std::string>{"1 file of the earlier call removed"});
   EXPECT_FALSE(fs::exists(file("3.ply")));
   for (const char* name : {"1.ply", "1.stl", "2.ply", "mine.ply", "deep/4.ply"}) {
     EXPECT_TRUE(fs::exists(file(name))) << name;
   }
-  EXPECT_TRUE(older.remove_but({"1.ply", "2.ply"}).empty());
+  EXPECT_TRUE(older.remove_but({"1.ply", "2.ply"}, "").empty());
 }
 
 // A scan that was replaced or repaired must not keep the result of the old one.

@@ -88,7 +88,8 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
   std::vector<std::string> lines = conforming_lines(result);
-  for (std::string& line : older.remove_but(files)) lines.push_back(std::move(line));
+  for (std::string& line : older.remove_but(files, arguments.input))
+    lines.push_back(std::move(line));
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
     std::vector<std::string> names;
     for (const Label label : labels) names.push_back(std::to_string(label));

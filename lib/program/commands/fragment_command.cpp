@@ -181,7 +181,8 @@ int run(const FragmentArguments& arguments) {
     return tetrahedra_in(meshes, "fragment", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
-  for (std::string& line : older.remove_but(files)) lines.push_back(std::move(line));
+  for (std::string& line : older.remove_but(files, arguments.grain))
+    lines.push_back(std::move(line));
   work.print(warnings, lines);
   return Done;
 }

@@ -283,7 +283,8 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
   std::vector<std::string> lines = {line_of(census, options.table)};
-  for (std::string& line : older.remove_but(files_named_in(table))) {
+  for (std::string& line :
+       older.remove_but(files_named_in(table), grains.size() > 0 ? grains.file(0) : "")) {
     lines.push_back(std::move(line));
   }
   if (options.describe) append_voxel_lines(folder, lines);

@@ -10,6 +10,7 @@
 
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {
@@ -106,14 +107,16 @@ OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& table
   }
 }
 
-std::vector<std::string> OlderFiles::remove_but(const std::vector<std::string>& kept) const {
+std::vector<std::string> OlderFiles::remove_but(const std::vector<std::string>& kept,
+                                                const std::string& input) const {
   std::set<fs::path> stems;
   for (const std::string& name : kept) stems.insert(fs::path(name).stem());
   std::size_t removed = 0;
   for (const std::string& name : files_) {
-    if (stems.count(fs::path(name).stem()) > 0) continue;
+    const fs::path path = folder_ / name;
+    if (stems.count(path.stem()) > 0 || same_file(path.string(), input)) continue;
     std::error_code ignored;
-    if (fs::remove(folder_ / name, ignored)) ++removed;
+    if (fs::remove(path, ignored)) ++removed;
   }
   if (removed == 0) return {};
   return {std::to_string(removed) + (removed == 1 ? " file" : " files") +

@@ -64,9 +64,10 @@ class OlderFiles {
   /// `tables` in the folder, in whose columns "file" they stand.
   OlderFiles(std::string folder, const std::vector<std::string>& tables);
 
-  /// Removes all but these, and but the same in another format. Returns how many, as a line for a
-  /// log; nothing if there were none.
-  std::vector<std::string> remove_but(const std::vector<std::string>& kept) const;
+  /// Removes all but these, but the same in another format, and but the input of the call. Returns
+  /// how many, as a line for a log; nothing if there were none.
+  std::vector<std::string> remove_but(const std::vector<std::string>& kept,
+                                      const std::string& input) const;
 
  private:
   std::filesystem::path folder_;
