@@ -2,7 +2,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +13,7 @@
 #include "bindings.h"
 #include "conversion.h"
 #include "work.h"
+#include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -23,17 +27,41 @@ namespace {
 constexpr std::array<const char*, 8> type_names{"int8",  "uint8",  "int16",   "uint16",
                                                 "int32", "uint32", "float32", "float64"};
 
-/// Reads attributes from a dictionary of arrays, one number per vertex or face. Other NumPy types,
-/// such as int64, become double.
+/// Returns the type in which a file keeps numbers of a NumPy type: whole numbers and truth values
+/// stay whole, so that they are never mixed. Refuses those beyond 32 bits.
+ScalarType kept_type(const std::string& name, const std::string& type,
+                     const std::vector<double>& values) {
+  for (std::size_t k = 0; k < type_names.size(); ++k) {
+    if (type == type_names[k]) return static_cast<ScalarType>(k);
+  }
+  if (type == "bool") return ScalarType::Uint8;
+  if (type != "int64" && type != "uint64") return ScalarType::Float64;
+  double least = 0.0;
+  double most = 0.0;
+  for (const double value : values) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  if (least >= std::numeric_limits<std::int32_t>::min() &&
+      most <= std::numeric_limits<std::int32_t>::max()) {
+    return ScalarType::Int32;
+  }
+  if (least < 0.0 || most > std::numeric_limits<std::uint32_t>::max()) {
+    refuse("The attribute \"" + name +
+           "\" has whole numbers beyond 32 bits, which no mesh file keeps. Number its values anew, "
+           "or give it as float64.");
+  }
+  return ScalarType::Uint32;
+}
+
+/// Reads attributes from a dictionary of arrays, one number per vertex or face.
 std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
   std::vector<MeshAttribute> attributes;
   for (const auto& [name, array] : arrays) {
     MeshAttribute attribute{py::cast<std::string>(name), ScalarType::Float64, {}};
+    // The name of a type does not tell the order of its bytes.
     const std::string type =
-        py::str(py::module_::import("numpy").attr("asarray")(array).attr("dtype"));
-    for (std::size_t k = 0; k < type_names.size(); ++k) {
-      if (type == type_names[k]) attribute.type = static_cast<ScalarType>(k);
-    }
+        py::str(py::module_::import("numpy").attr("asarray")(array).attr("dtype").attr("name"));
     const auto values = py::cast<Points>(array);
     if (values.ndim() != 1) {
       throw py::type_error("The attribute \"" + attribute.name +
@@ -41,6 +69,7 @@ std::vector<MeshAttribute> attributes_of(const py::dict& arrays) {
                            "face.");
     }
     attribute.values.assign(values.data(), values.data() + values.size());
+    attribute.type = kept_type(attribute.name, type, attribute.values);
     attributes.push_back(std::move(attribute));
   }
   return attributes;
@@ -121,7 +150,8 @@ void bind_attributes(py::module_& module) {
              py::kw_only(), py::arg("threads") = 0,
              "Transfers the attributes of a scan's vertices and faces to another mesh at the same "
              "place, from the nearest point of the scan. scan and mesh: (vertices, faces). "
-             "Returns two dictionaries with the same names and types.");
+             "Returns two dictionaries with the same names; whole numbers stay whole, of up to 32 "
+             "bits.");
   module.def(
       "write_attributes",
       [](const std::string& path, const Points& vertices, const py::object& faces,

@@ -37,7 +37,7 @@ ClumpOptions clump_options(int spheres, double max_error, const std::string& err
   ClumpOptions options;
   options.sphere_count = spheres;
   options.max_error_percent = max_error;
-  options.error_measure = from_key<ClumpError>(error_measure);
+  options.error_measure = from_key<ClumpError>(lower_case(error_measure));
   options.most_spheres = max_spheres;
   options.smallest_radius_percent = smallest_radius;
   options.inside = inside;
@@ -82,7 +82,7 @@ void bind_clump(py::module_& module) {
   const ClumpOptions usual;
   module.def(
       "clump", &clump, py::arg("vertices"), py::arg("faces"),
-      py::arg("spheres") = usual.sphere_count, py::kw_only(),
+      py::arg("spheres").noconvert() = usual.sphere_count, py::kw_only(),
       py::arg("max_error") = usual.max_error_percent, py::arg("error_measure") = "distance",
       py::arg("max_spheres") = usual.most_spheres,
       py::arg("smallest_radius") = usual.smallest_radius_percent, py::arg("inside") = usual.inside,

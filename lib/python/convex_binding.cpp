@@ -60,7 +60,7 @@ py::dict convex_files(const std::vector<std::string>& inputs, const std::filesys
 
 void bind_convex(py::module_& module) {
   module.def("convex", &convex, py::arg("vertices"), py::arg("faces"), py::kw_only(),
-             py::arg("parts") = ConvexOptions().parts,
+             py::arg("parts").noconvert() = ConvexOptions().parts,
              py::arg("part_faces") = ConvexOptions().faces,
              py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
              py::arg("progress") = py::none(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
 
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include "conversion.h"
 #include "toolbox/exchange/distance_grid.h"
 #include "work.h"
+#include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt::python {
@@ -20,6 +23,10 @@ py::array_t<double> signed_distances(const Points& points, const Points& vertice
                                      const py::object& faces, int threads,
                                      const py::object& progress) {
   const std::vector<Vector3> places = points_of(points);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i].allFinite()) continue;
+    refuse("Point " + std::to_string(i) + " is not finite. Leave it out.");
+  }
   const IndexedMesh mesh = mesh_of(vertices, faces);
   std::vector<double> values = work_on(threads, progress, [&](const Execution& execution) {
     const MeshDistance distance(mesh, execution);

@@ -93,7 +93,7 @@ void bind_fragment(py::module_& module) {
   const FragmentOptions usual;
   module.def(
       "fragment", &fragment, py::arg("vertices"), py::arg("faces"),
-      py::arg("fragments") = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
+      py::arg("fragments").noconvert() = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
       py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
       py::arg("edge_length") = 0.0, py::arg("nodes") = 0, py::arg("threads") = 0,
       py::arg("progress") = py::none(),

@@ -156,9 +156,9 @@ void bind_job(py::module_& module) {
       py::arg("scale") = usual.simulation.frame.scale,
       py::arg("size") = usual.simulation.frame.size, py::arg("node_table") = usual.node_tables,
       py::arg("sdf") = usual.grids, py::arg("sdf_surface") = key_of(usual.simulation.surface),
-      py::arg("sdf_spacing") = usual.simulation.grid.spacing, py::arg("levels") = usual.levels,
-      py::arg("voxel_size") = py::none(), py::arg("smallest") = usual.volume.smallest,
-      py::arg("smoothing") = usual.volume.smoothing,
+      py::arg("sdf_spacing") = usual.simulation.grid.spacing,
+      py::arg("levels").noconvert() = usual.levels, py::arg("voxel_size") = py::none(),
+      py::arg("smallest") = usual.volume.smallest, py::arg("smoothing") = usual.volume.smoothing,
       py::arg("background") = usual.volume.background,
       py::arg("at_border") = usual.volume.at_border, py::arg("parts") = usual.volume.parts,
       py::arg("separate") = py::none(), py::arg("threads") = 0, py::arg("progress") = py::none());

@@ -36,6 +36,15 @@ Value cast_option(const std::string& keyword, const py::handle& value, const cha
   }
 }
 
+/// pybind11 cuts the decimals of NumPy's numbers off.
+void check_whole(const std::string& keyword, const py::handle& value, const std::string& wanted) {
+  // Arrays have the function of a whole number too, and throw in it.
+  if (py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()))) return;
+  PyErr_Clear();
+  throw py::type_error("The option " + keyword + " is " + py::repr(value).cast<std::string>() +
+                       ". Give " + wanted + ".");
+}
+
 /// Reads the given options.
 class ReadOptions {
  public:
@@ -45,9 +54,10 @@ class ReadOptions {
   void operator()(Number& value, const NumberOption<Number>& option) {
     constexpr bool is_whole = std::is_integral_v<Number>;
     read(option.key, [&](const std::string& keyword, const py::handle& object) {
-      value = cast_option<Number>(
-          keyword, object,
-          (std::string(is_whole ? "a whole number " : "a number ") + range_text(option)).c_str());
+      const std::string wanted =
+          std::string(is_whole ? "a whole number " : "a number ") + range_text(option);
+      if (is_whole) check_whole(keyword, object, wanted);
+      value = cast_option<Number>(keyword, object, wanted.c_str());
       require_in_range(value, option);
     });
   }

@@ -55,6 +55,13 @@ GrainTable table_of(TableParts parts) {
   }
   table.values = std::move(std::get<3>(parts));
   table.failed = std::get<4>(parts);
+  const auto rows = static_cast<std::size_t>(table.values.rows());
+  for (const auto& [name, texts] :
+       {std::pair("grain", &table.grains), std::pair("file", &table.files)}) {
+    if (texts->size() == rows || (texts == &table.files && texts->empty())) continue;
+    refuse("The column \"" + std::string(name) + "\" has " + std::to_string(texts->size()) +
+           " rows, and the numbers have " + std::to_string(rows) + ". Give one for each grain.");
+  }
   return table;
 }
 

@@ -65,6 +65,22 @@ def test_a_family_of_remeshes_has_levels(table):
         wscvt.sample(empty)
 
 
+def test_columns_have_one_number_for_each_grain():
+    sizes = np.arange(1.0, 31.0)
+    table = {"axis_i_box": sizes, "volume": sizes ** 3}
+    size = wscvt.sample(table, repetitions=9)["samples"][0]["size"]
+    for name in ("grain", "file"):
+        for count in (1, 29, 100):
+            with pytest.raises(wscvt.Error, match=f'"{name}" has {count} rows'):
+                wscvt.sample({name: ["a"] * count, **table})
+    # A point for each grain, as fabric gives it, is three columns.
+    centre = np.arange(90.0).reshape(30, 3)
+    with_centre = wscvt.sample({"centre": centre, **table}, repetitions=9)["samples"][0]
+    assert with_centre["size"] == size
+    with pytest.raises(wscvt.Error, match=r"shape \(30, 2\)"):
+        wscvt.sample({"centre": centre[:, :2], **table})
+
+
 def test_masses_come_from_the_table_or_the_density():
     sizes = np.array([1.0, 2.0, 3.0])
     one = {"axis_i_box": sizes, "volume": sizes}

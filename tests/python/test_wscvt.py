@@ -669,6 +669,55 @@ def test_extract_of_an_array_takes_and_refuses_what_the_program_does(case, tmp_p
             assert text in str(error.value)
 
 
+def test_a_point_that_is_not_finite_has_no_distance(scan):
+    with pytest.raises(wscvt.Error, match="Point 1 is not finite"):
+        wscvt.signed_distances([[0, 0, 0], [np.nan, 0, 0]], *scan)
+
+
+def test_whole_numbers_stay_whole(scan, tmp_path):
+    vertices = scan[0]
+    labels = np.where(vertices[:, 0] > vertices[:, 0].mean(), 7, 2)
+    remesh = wscvt.remesh(*scan, nodes=100)
+    for kind in (np.int64, np.uint64, ">i4", np.int16, bool):
+        given = (labels > 2) if kind is bool else labels.astype(kind)
+        carried, _ = wscvt.carry_attributes(scan, remesh, {"label": given})
+        assert set(carried["label"]) == set(np.unique(given).astype(int)), kind
+        assert carried["label"].dtype.kind in "iu"
+    carried, _ = wscvt.carry_attributes(scan, remesh, {"label": labels * 500_000_000})
+    assert carried["label"].dtype == np.uint32
+    with pytest.raises(wscvt.Error, match="beyond 32 bits"):
+        wscvt.carry_attributes(scan, remesh, {"label": labels * 5_000_000_000})
+    for wrong in (np.float32(60.9), np.array([60.9]), 60.5):
+        with pytest.raises(TypeError):
+            wscvt.remesh(*scan, nodes=wrong)
+        with pytest.raises(TypeError):
+            wscvt.clump(*scan, spheres=wrong)
+        with pytest.raises(TypeError):
+            wscvt.batch([], [wrong], output=tmp_path / "out")
+    assert len(wscvt.remesh(*scan, nodes=np.uint8(60)).vertices) == 60
+
+
+def test_a_file_is_not_replaced_by_what_cannot_be_read(scan, tmp_path):
+    for name in ("w.ply", "w.stl", "w.ascii.stl"):
+        wscvt.write_mesh(tmp_path / name, *scan)
+    before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    for name in ("grain id", "grain\nid", ""):
+        with pytest.raises(wscvt.Error, match="name of PLY"):
+            wscvt.write_mesh(tmp_path / "w.ply", *scan, vertex_attributes={name: np.zeros(len(scan[0]))})
+    for name in ("w.stl", "w.ascii.stl"):
+        with pytest.raises(wscvt.Error, match="only triangles"):
+            wscvt.write_mesh(tmp_path / name, scan[0])
+    assert before == {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+
+
+def test_a_batch_has_each_number_of_nodes_once(scan, tmp_path):
+    wscvt.write_mesh(tmp_path / "a.ply", *scan)
+    for nodes, said in (([60, 60], "twice"), ([], "is empty")):
+        with pytest.raises(wscvt.Error, match=said):
+            wscvt.batch(tmp_path / "a.ply", nodes, output=tmp_path / "out")
+        assert not (tmp_path / "out").exists()
+
+
 def test_signed_distances_are_exact_and_negative_inside():
     box = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 2.0) for z in (0.0, 3.0)])
     faces = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],

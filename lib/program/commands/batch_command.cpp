@@ -46,9 +46,6 @@ std::string largest_level(const std::string& text, std::vector<int>& levels) {
     levels.push_back(from_typed(one, node_count_option));
   }
   std::sort(levels.begin(), levels.end());
-  if (std::adjacent_find(levels.begin(), levels.end()) != levels.end()) {
-    refuse("The list \"" + text + "\" contains a number of nodes twice. Give it once.");
-  }
   return std::to_string(levels.back());
 }
 

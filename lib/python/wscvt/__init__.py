@@ -153,6 +153,8 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
     if output is not None:
         if not isinstance(nodes, numbers.Integral) and nodes is not None:
             options["levels"] = sorted(nodes)
+            if not options["levels"]:
+                raise InputError("The list nodes is empty. Give a number of nodes.")
             nodes = options["levels"][-1]
         if nodes is not None:
             options["nodes"] = nodes
@@ -376,7 +378,16 @@ def _table_parts(table):
         names = table.dtype.names or ()
     else:
         names = list(table)
-    columns = {name: numpy.asarray(table[name]) for name in names}
+    columns = {}
+    for name in names:
+        column = numpy.asarray(table[name])
+        if column.ndim == 2 and column.shape[1] == 3:  # a point or a direction, as of fabric
+            columns.update((f"{name}_{axis}", column[:, k]) for k, axis in enumerate("xyz"))
+        elif column.ndim == 1:
+            columns[name] = column
+        else:
+            raise InputError(f'The column "{name}" has the shape {column.shape}. Give one number '
+                             f"for each grain.")
     texts = {name: [str(text) for text in columns.pop(name)]
              for name in list(columns) if columns[name].dtype.kind not in "biuf"}
     if not columns:

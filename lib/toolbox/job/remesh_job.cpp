@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "toolbox/clump/first_contact.h"
@@ -191,6 +192,10 @@ class GrainRemesh {
 
 void check_job(const RemeshJob& job) {
   check_options(job.remesh);
+  const std::set<int> levels(job.levels.begin(), job.levels.end());
+  if (levels.size() < job.levels.size()) {
+    refuse("The list of numbers of nodes has a number twice. Give it once.");
+  }
   if (!job.levels.empty() && job.remesh.target.percent > 0.0) {
     refuse(mention("max-error") + " needs a single number of nodes. Leave it out.");
   }
