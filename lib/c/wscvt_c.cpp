@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
@@ -23,6 +24,7 @@ struct wscvt_remesher {
   wscvt_progress progress = nullptr;
   void* data = nullptr;
   std::optional<wscvt::IndexedMesh> scan;
+  std::vector<std::string> warnings;  ///< about reading it
   std::optional<wscvt::RemeshResult> result;
   std::string report;
   std::string message;
@@ -156,13 +158,16 @@ int wscvt_set_scan(wscvt_remesher* remesher, const double* points, size_t point_
       }
     }
     remesher->scan = std::move(scan);
+    remesher->warnings.clear();
   });
 }
 
 int wscvt_read_scan(wscvt_remesher* remesher, const char* path) {
   return outcome_of_work(remesher, [&] {
     require_text(path, "name of the file");
-    remesher->scan = wscvt::read_mesh(path);
+    MeshFile file = wscvt::read_mesh_file(path);
+    remesher->scan = std::move(file.mesh);
+    remesher->warnings = std::move(file.warnings);
   });
 }
 
@@ -180,6 +185,8 @@ int wscvt_run(wscvt_remesher* remesher, int threads) {
       };
     }
     remesher->result = wscvt::remesh(*remesher->scan, options, Execution(threads, callback));
+    std::vector<wscvt::Sentence>& warnings = remesher->result->warnings;
+    warnings.insert(warnings.begin(), remesher->warnings.begin(), remesher->warnings.end());
     remesher->report = wscvt::report_json(*remesher->result);
   });
 }

@@ -124,6 +124,21 @@ int main(int argc, char** argv) {
   EXPECT(wscvt_node_count(other) == 60);
   wscvt_free(other);
 
+  /* What was said about reading the scan stands in the report. */
+  char tail[4096];
+  snprintf(tail, sizeof tail, "%s.tail.stl", argv[2]);
+  EXPECT(wscvt_write_mesh(remesher, tail) == WSCVT_DONE);
+  FILE* const file = fopen(tail, "ab");
+  EXPECT(file != NULL && fwrite("01234567890123456789", 1, 20, file) == 20);
+  if (file != NULL) fclose(file);
+  wscvt_remesher* const warned = wscvt_new();
+  EXPECT(wscvt_read_scan(warned, tail) == WSCVT_DONE);
+  EXPECT(wscvt_set_option(warned, "nodes", "60") == WSCVT_DONE);
+  EXPECT(wscvt_run(warned, 1) == WSCVT_DONE);
+  EXPECT(strstr(wscvt_report(warned), "20 bytes behind its last triangle") != NULL);
+  wscvt_free(warned);
+  remove(tail);
+
   heard.calls = 0;
   heard.last = 0.0;
   heard.stop_at = 2;
