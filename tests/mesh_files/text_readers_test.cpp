@@ -121,7 +121,8 @@ TEST(StlReader, ReadsTextInEitherCase) {
   std::string windows;
   for (const char c : capitals) windows += c == '\n' ? "\r\n" : std::string(1, c);
   for (const std::string& text : std::vector<std::string>{
-           capitals, windows, "solid facet vertex\n" + facet + facet + "endsolid facet vertex",
+           capitals, windows, "\xEF\xBB\xBF" + windows,
+           "solid facet vertex\n" + facet + facet + "endsolid facet vertex",
            "solid\n" + facet + "endsolid\n\nsolid b\n" + facet + "endsolid b\n\n",
            "solid a\nfacet normal nan -nan(ind) nan outer loop vertex 0 0 0 vertex 1 0 0.5\n"
            "vertex 0 1 0 endloop endfacet\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0.5\n"

@@ -30,6 +30,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/byte_reader.h"
 #include "wscvt/mesh_files/readers.h"
+#include "wscvt/mesh_files/text_fields.h"
 #include "wscvt/mesh_files/text_writers.h"
 
 namespace wscvt {
@@ -352,6 +353,10 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
 
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
+  const bool is_stl = format.write == write_stl || format.write == write_by<write_stl_text>;
+  if (is_stl && mesh.triangles.empty()) {
+    refuse("\"" + path + "\" would be empty: STL has only triangles, and the mesh has none.");
+  }
   if (format.write == write_stl) {
     const std::size_t lost = fallen_together(mesh.points);
     const double step = single_precision_step(mesh);
@@ -379,6 +384,13 @@ void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
   for (const auto& [all, count] : {std::pair(&attributes.of_vertices, mesh.points.size()),
                                    std::pair(&attributes.of_faces, mesh.triangles.size())}) {
     for (const MeshAttribute& attribute : *all) {
+      const std::string& name = attribute.name;
+      if (name.empty() || std::any_of(name.begin(), name.end(), [](char c) {
+            return static_cast<unsigned char>(c) <= ' ' || c == '\x7f';
+          })) {
+        refuse("The attribute " + in_quotes(name) +
+               " does not have a name of PLY. Give one without blanks.");
+      }
       if (attribute.values.size() == count) continue;
       refuse("The attribute \"" + attribute.name + "\" has " +
              std::to_string(attribute.values.size()) + " values for " + std::to_string(count) +

@@ -166,7 +166,10 @@ bool is_binary(ByteReader& reader) {
     const auto triangles = load<std::uint32_t, boost::endian::order::little>(header.data() + 80);
     if (reader.remaining() == header_size + std::uintmax_t{record_size} * triangles) return true;
   }
-  return lower_case(TextFields(header).next()) != "solid" ||
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of a text that Windows' editor saved
+  const bool is_marked = header.substr(0, mark.size()) == mark;
+  const std::string_view text = header.substr(is_marked ? mark.size() : 0);
+  return lower_case(TextFields(text).next()) != "solid" ||
          header.find('\0') != std::string_view::npos;
 }
 
