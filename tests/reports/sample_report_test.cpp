@@ -121,10 +121,11 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   EXPECT_LT(std::abs(trend.corrected.value), 0.3);
   EXPECT_LT(std::abs(trend.trusted.value), 0.3);
   // Fifths of eight grains: 8 to 15 voxels, then 16 and more.
-  ASSERT_EQ(one.sample.notes.size(), 1U);
-  EXPECT_EQ(one.sample.notes[0].rfind("8 grains of size 0.8 to 1.5 mm have 11.5 voxels across", 0),
+  ASSERT_EQ(one.sample.notes.size(), 2U);
+  EXPECT_NE(one.sample.notes[0].find("sphericity_wadell of 1 of 40 grains"), std::string::npos);
+  EXPECT_EQ(one.sample.notes[1].rfind("8 grains of size 0.8 to 1.5 mm have 11.5 voxels across", 0),
             0U)
-      << one.sample.notes[0];
+      << one.sample.notes[1];
   std::string text;
   for (const std::string& line : sample_lines(report)) {
     EXPECT_LE(line.size(), 80U) << line;

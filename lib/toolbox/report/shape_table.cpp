@@ -208,8 +208,10 @@ std::vector<std::string> voxel_lines(const GrainTable& shapes) {
   constexpr std::pair<const char*, const char*> told[] = {{"area", "area"},
                                                           {"sphericity_wadell", "sphericity"},
                                                           {"convexity", "convexity"},
-                                                          {"roundness_wadell", "roundness"}};
+                                                          {"roundness_wadell", "roundness"},
+                                                          {"sq", "roughness Sq"}};
   for (const auto& [key, name] : told) {
+    if (!shapes.find(std::string("resolution.") + key + ".corrected")) continue;
     std::vector<double> one;
     for (std::size_t k = 0; k < all; ++k) {
       one.push_back(

@@ -157,7 +157,8 @@ MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSam
   return [all = sample.density](Eigen::Index, double volume) { return all * volume; };
 }
 
-/// Fills the sample's resolution from the rows `kept` of a table that has it.
+/// Fills the sample's resolution from the rows `kept` of a table that has it. Notes the descriptors
+/// that the voxels of grains do not resolve: their statistics are those of the voxels.
 void add_resolution(const GrainTable& table, const std::vector<Eigen::Index>& kept,
                     GrainSample& sample) {
   const auto across = table.find("resolution.voxels_across");
@@ -170,13 +171,30 @@ void add_resolution(const GrainTable& table, const std::vector<Eigen::Index>& ke
   for (Eigen::Index row = 0; row < rows; ++row) sample.voxels_across[row] = read(*across, row);
   sample.corrected.setConstant(rows, sample.values.cols(),
                                std::numeric_limits<double>::quiet_NaN());
+  std::string unresolved;
   for (std::size_t k = 0; k < sample.columns.size(); ++k) {
     const auto column = table.find("resolution." + sample.columns[k].name + ".corrected");
     if (!column) continue;
+    Eigen::Index given = 0;
+    Eigen::Index missing = 0;
     for (Eigen::Index row = 0; row < rows; ++row) {
-      sample.corrected(row, static_cast<Eigen::Index>(k)) = read(*column, row);
+      const auto place = static_cast<Eigen::Index>(k);
+      sample.corrected(row, place) = read(*column, row);
+      if (!std::isfinite(sample.voxels_across[row]) || !std::isfinite(sample.values(row, place))) {
+        continue;
+      }
+      ++given;
+      if (!std::isfinite(sample.corrected(row, place))) ++missing;
     }
+    if (missing == 0) continue;
+    unresolved +=
+        (unresolved.empty() ? "" : ", ") + sample.columns[k].name + " of " +
+        (missing == given ? "all" : std::to_string(missing) + " of " + std::to_string(given)) +
+        " grains";
   }
+  if (unresolved.empty()) return;
+  sample.notes.push_back("Not resolved by the voxels: " + unresolved +
+                         ". Their numbers here are those of the voxels.");
 }
 
 /// Notes the classes of size, fifths of the grains, of which half the grains have too few voxels.

@@ -46,6 +46,8 @@ struct Step {
   }
 };
 
+constexpr double rounding = 1e-12;  // relative
+
 /// One descriptor of two samples in one ascending list.
 class PooledColumn {
  public:
@@ -83,8 +85,8 @@ class PooledColumn {
             masses_[k] * (is_one[lane] * mass_step.both[lane] - mass_step.fall[lane]);
       }
       const double gap = values_[k + 1] - values_[k];
-      // Equal values make one step.
-      if (gap == 0.0) continue;
+      // Equal values make one step, also those that differ by rounding: remeshes with one volume.
+      if (gap <= rounding * std::abs(values_[k + 1])) continue;
       add(difference, gap, by_number);
       add(mass_difference, gap, by_mass);
     }
@@ -136,7 +138,7 @@ void part(std::uint64_t seed, std::size_t first_stream, std::size_t of_one, Part
 }
 
 /// Rounding makes equal divisions differ in their last bits.
-bool is_as_far(double parted, double own) { return parted >= own * (1.0 - 1e-12); }
+bool is_as_far(double parted, double own) { return parted >= own * (1.0 - rounding); }
 
 std::size_t partings_for(std::size_t grains, int asked) {
   if (grains <= most_grains_permuted || asked <= least_permutations) {
