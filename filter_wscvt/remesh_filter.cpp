@@ -28,12 +28,12 @@ ParameterList seldom_needed_parameters() {
   const RemeshOptions defaults;
   const AsPublishedOptions published;
   ParameterList parameters = {
-      option_parameter(
-          "ErrorTarget", defaults.target.percent, error_target_option, "Allowed error (%)",
-          "Above 0: searches the smallest number of nodes with at most this error, from the one "
-          "given up to " +
-              typed_text(defaults.target.largest_node_count) +
-              ". The log lists the errors. Takes ten times as long."),
+      option_parameter("ErrorTarget", defaults.target.percent, error_target_option,
+                       "Allowed error (%)",
+                       "Above 0: searches for few nodes with at most this error, from the number "
+                       "given up to " +
+                           typed_text(defaults.target.largest_node_count) +
+                           ". The log lists the errors. Takes ten times as long."),
       table_parameter("TargetMeasure", defaults.target.measure, "Error measure",
                       "The error to be limited, in % of the scan's value."),
       curvature_alpha_parameter(),

@@ -34,7 +34,7 @@ struct EnumerationTable<ErrorMeasure> {
   };
 };
 
-/// Search for the smallest N with at most this error (see smallest_node_count).
+/// Search for an N near the smallest with at most this error (see smallest_node_count).
 struct ErrorTarget {
   ErrorMeasure measure = ErrorMeasure::Distance;
   double percent = 0.0;            ///< 0 to 100; 0: no search, N is RemeshOptions::node_count
@@ -44,7 +44,7 @@ struct ErrorTarget {
 inline constexpr NumberOption<double> error_target_option = {
     "max-error", "allowed error in %",
     0.0,         100.0,
-    Ends::Both,  "search for the smallest number of nodes with at most this error; 0: no search"};
+    Ends::Both,  "search for few nodes with at most this error; 0: no search"};
 inline constexpr NumberOption<int> largest_node_count_option = {
     "max-nodes",
     "max. number of nodes to try",
