@@ -349,7 +349,8 @@ def describe(vertices, faces=None, reference=None, **options):
 def signed_distances(points, vertices, faces=None, **options):
     """Returns the exact distances (n,) of points (n, 3) to a closed mesh, negative inside; length.
 
-    vertices, faces: as for remesh. threads, progress: as for remesh. Raises Error.
+    vertices, faces: as for remesh. threads, progress: as for remesh. Raises Error, also for points
+    that are not finite.
     """
     return _wscvt.signed_distances(points, *_arrays(vertices, faces), **options)
 
@@ -559,7 +560,8 @@ def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *
         face of the scan. Without both, the scan must be a path: the file's attributes are used,
         with its texture as red, green and blue of the vertices.
 
-    Returns two dictionaries with the same names and types. Warns of missing pictures. Raises Error.
+    Returns two dictionaries with the same names. Whole numbers stay whole, of up to 32 bits; a mask
+    becomes 0 and 1. Warns of missing pictures. Raises Error.
     """
     if vertex_attributes is None and face_attributes is None:
         pair = mesh if isinstance(mesh, tuple) else _arrays(mesh)
