@@ -31,7 +31,7 @@ inline constexpr NumberOption<double> clump_density_option = {
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Neither,
-    "mass per unit volume in .molecule. For the other formats the engine's script sets it"};
+    "mass per unit volume in .molecule, and of a packing. Else the engine's script sets it"};
 
 /// Returns the endings above.
 const std::vector<std::string>& clump_endings();
