@@ -11,6 +11,7 @@
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {
