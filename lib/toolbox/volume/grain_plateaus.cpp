@@ -87,8 +87,9 @@ std::vector<double> plateaus_of(const Depths& depths, const Phases& phases) {
   // Below the blur. A bright grain's surface is about a voxel below the mask's.
   constexpr double begin_of_shell = 2.5;
   constexpr double thickness = 2.5;
-  const auto middle = [](const Greys& shell, std::size_t begin, std::size_t end) {
-    return static_cast<double>(shell[begin + (end - begin) / 2].second);
+  const auto middle = [](const Greys& shell, std::size_t begin, std::size_t end) -> double {
+    const std::size_t half = (end - begin) / 2;
+    return shell[begin + half].second;
   };
   std::vector<double> inner = plateaus;
   for_each_shell(depths, begin_of_shell, thickness,

@@ -10,7 +10,7 @@ namespace wscvt {
 
 /// Reads what the text of one of many slices says of all: ImageJ's unit, distance of slices and
 /// calibration. Of another text nothing: the slice is no stack.
-TiffLayout slice_layout(const std::string& text);
+TiffLayout slice_layout(const std::string& description);
 
 /// Reads the layout of a file `path` with `pages` pages from its first page's text. Throws
 /// Error(InputOutput), naming the file, if the text contradicts the pages, or has unknown

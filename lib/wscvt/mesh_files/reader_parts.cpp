@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace wscvt {
@@ -30,8 +31,8 @@ std::vector<Triangle> split_polygon(const std::vector<Vector3>& corners) {
   }
   if (is_fan || corners.size() > most_corners) return triangles;
   triangles.clear();
-  std::vector<std::int32_t> left;
-  for (std::int32_t k = 0; k < count; ++k) left.push_back(k);
+  std::vector<std::int32_t> left(corners.size());
+  std::iota(left.begin(), left.end(), 0);
   const auto ear_at = [&](std::size_t k) -> Triangle {
     const std::size_t n = left.size();
     return {left[(k + n - 1) % n], left[k], left[(k + 1) % n]};
