@@ -276,15 +276,15 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
     if (!error.empty()) return {"", "", error};
     return {folder.name_of(grain), record};
   });
-  const std::string table = folder.file(options.table, ".csv");
   const OlderFiles older(folder.path(), {options.table + ".csv"});
-  write_file(table, census);
+  write_file(folder.file(options.table, ".csv"), census);
   rows.close();
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
   std::vector<std::string> lines = {line_of(census, options.table)};
+  std::istringstream made(census);
   for (std::string& line :
-       older.remove_but(files_named_in(table), grains.size() > 0 ? grains.file(0) : "")) {
+       older.remove_but(files_named_in(made), grains.size() > 0 ? grains.file(0) : "")) {
     lines.push_back(std::move(line));
   }
   if (options.describe) append_voxel_lines(folder, lines);

@@ -85,9 +85,8 @@ void require_own_table(const std::string& folder, const std::string& table,
          mention("output") + ".");
 }
 
-std::vector<std::string> files_named_in(const std::string& table) {
-  std::ifstream file(table, std::ios::binary);
-  CsvReader reader(file);
+std::vector<std::string> files_named_in(std::istream& table) {
+  CsvReader reader(table);
   std::vector<std::string> fields;
   if (!reader.next(fields)) return {};
   const auto found = std::find(fields.begin(), fields.end(), "file");
@@ -101,7 +100,8 @@ std::vector<std::string> files_named_in(const std::string& table) {
 OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& tables)
     : folder_(std::move(folder)) {
   for (const std::string& table : tables) {
-    for (std::string& name : files_named_in((folder_ / table).string())) {
+    std::ifstream file(folder_ / table, std::ios::binary);
+    for (std::string& name : files_named_in(file)) {
       // A path elsewhere is not of these tables.
       if (!name.empty() && fs::path(name).filename() == name) files_.push_back(std::move(name));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -74,8 +75,8 @@ class OlderFiles {
   std::vector<std::string> files_;
 };
 
-/// Returns the names in the column "file" of a table, "" where there is none; nothing if the table
-/// cannot be read or has no such column.
-std::vector<std::string> files_named_in(const std::string& table);
+/// Returns the names in the column "file" of a CSV table, "" where there is none; nothing if the
+/// table cannot be read or has no such column.
+std::vector<std::string> files_named_in(std::istream& table);
 
 }  // namespace wscvt
