@@ -30,6 +30,10 @@ RemeshResult clean() {
   return result;
 }
 
+void place(RemeshResult& result, ScanPlacement placement) {
+  std::get<OnScanOptions>(result.options.method).placement = placement;
+}
+
 OnScanReport& on_scan(RemeshResult& result) { return std::get<OnScanReport>(result.method); }
 
 /// Makes it a result of the published method, whose report it gives.
@@ -213,25 +217,36 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
        {"area error -5 %. "}},
       {[](RemeshResult& r) {
          r.rms_distance = 0.039;  // of radius 2
+         r.largest_distance = 0.19;
          r.remesh.area = 10.3;
          r.remesh.volume = 1.05 * r.scan.volume;
-         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+         place(r, ScanPlacement::ContactFit);
        },
        {}},
       // A contact fit that shrinks or blows up a grain, or is far off.
       {[](RemeshResult& r) {
          r.remesh.volume = 0.93 * r.scan.volume;
-         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+         place(r, ScanPlacement::ContactFit);
        },
        {"area error +0 %, volume error -7 %. Use more nodes, or --placement fitted, which keeps"}},
       {[](RemeshResult& r) {
          r.rms_distance = 0.041;
-         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+         place(r, ScanPlacement::ContactFit);
        },
        {"rms distance 2.05 %"}},
       {[](RemeshResult& r) {
+         r.largest_distance = 0.21;
+         place(r, ScanPlacement::ContactFit);
+       },
+       {"largest 10.5 %"}},
+      {[](RemeshResult& r) {
+         r.remesh.area = 10.5;
+         place(r, ScanPlacement::ContactFit);
+       },
+       {"area error +5 %"}},
+      {[](RemeshResult& r) {
          r.quality.smallest_angle = 8.0;
-         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::ContactFit;
+         place(r, ScanPlacement::ContactFit);
        },
        {"8 degrees: the contact fit moves nodes", "If angles count, use --placement fitted."}},
       // What helps follows from the options.
@@ -243,7 +258,7 @@ TEST(RemeshWarnings, TellARemeshThatIsNotAccurateAndWhatHelps) {
        {"area error +0 %. Use more nodes."}},
       {[](RemeshResult& r) {
          r.rms_distance = 0.04;
-         std::get<OnScanOptions>(r.options.method).placement = ScanPlacement::OnSurface;
+         place(r, ScanPlacement::OnSurface);
        },
        {"Use more nodes, or --placement fitted, which keeps the volume."}},
       {[](RemeshResult& r) {

@@ -251,11 +251,12 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
 bool is_inaccurate(const RemeshResult& result) {
   if (result.input.has_voxel_steps) return false;
   const bool is_off = is_contact_fit(result);
-  const double unit = (is_off ? 2.0 : 1.0) * result.input.equivalent_radius;
+  const double times = is_off ? 2.0 : 1.0;
+  const double unit = times * result.input.equivalent_radius;
   const auto error = [](double value, double of_scan) { return std::abs(value / of_scan - 1.0); };
   return result.rms_distance > distance_warning_limit * unit ||
          result.largest_distance > largest_warning_limit * unit ||
-         error(result.remesh.area, result.scan.area) > (is_off ? 2.0 : 1.0) * area_warning_limit ||
+         error(result.remesh.area, result.scan.area) > times * area_warning_limit ||
          (is_off && error(result.remesh.volume, result.scan.volume) > contact_volume_limit);
 }
 
