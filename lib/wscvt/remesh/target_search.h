@@ -23,7 +23,7 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
 /// Remeshes to a number of nodes.
 using RemeshToCount = std::function<RemeshResult(int node_count, const Execution& execution)>;
 
-/// Returns the remesh with the smallest number of nodes that meets the target or, if none does,
+/// Returns the remesh with the smallest number tried that meets the target or, if none does,
 /// with the largest number tried; `search` says which (see smallest_node_count). Throws what
 /// `remesh_to` throws, except for counts that cannot be remeshed, and Error(NumericalFailure) if
 /// all counts fail.
