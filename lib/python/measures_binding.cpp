@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <optional>
 #include <utility>
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/resolution/resolution.h"
 #include "work.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/report/report.h"
@@ -17,8 +19,8 @@ namespace py = pybind11;
 namespace {
 
 py::object describe(const Points& vertices, const py::object& faces, const py::object& reference,
-                    double roundness_ball, double roughness_cutoff, int threads,
-                    const py::object& progress) {
+                    double roundness_ball, double roughness_cutoff,
+                    std::optional<double> voxel_size, int threads, const py::object& progress) {
   DetailedOptions options;
   options.roundness_ball = roundness_ball;
   options.roughness_cutoff = roughness_cutoff;
@@ -28,7 +30,17 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
     original = NamedMesh{"reference", mesh_of_reference(reference)};
   }
   const GrainMeasures measures = work_on(threads, progress, [&](const Execution& execution) {
-    return measure_grain(std::move(grain), std::move(original), options, execution);
+    const double share = voxel_size ? 0.5 : 1.0;
+    GrainMeasures found =
+        measure_grain(std::move(grain), std::move(original), options, execution.part(0.0, share));
+    if (voxel_size) {
+      ResolutionOptions resolution;
+      resolution.voxel_size = *voxel_size;
+      resolution.details = options;
+      found.resolution = measure_resolution(found.grain.checked.mesh, found.grain.descriptors,
+                                            resolution, execution.part(share, 1.0));
+    }
+    return found;
   });
   return parsed(descriptor_json(measures));
 }
@@ -40,7 +52,8 @@ void bind_measures(py::module_& module) {
              py::arg("reference") = py::none(), py::kw_only(),
              py::arg("roundness_ball") = DetailedOptions().roundness_ball,
              py::arg("roughness_cutoff") = DetailedOptions().roughness_cutoff,
-             py::arg("threads") = 0, py::arg("progress") = py::none());
+             py::arg("voxel_size") = py::none(), py::arg("threads") = 0,
+             py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

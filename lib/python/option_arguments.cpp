@@ -90,6 +90,12 @@ class ReadOptions {
       const Sentence refusal = refusal_of_option(key, method_);
       if (!refusal.empty())
         throw py::type_error("The option " + keyword + ": " + in_words_of_python(refusal));
+      if (keyword == "frame" || keyword == "scale" || keyword == "size") {
+        throw py::type_error(
+            "A result is in the frame of its scan. Call its in_frame(), or write "
+            "its files with " +
+            keyword + ".");
+      }
       throw py::type_error("There is no option " + keyword +
                            ". wscvt.options() lists the options and their defaults.");
     }

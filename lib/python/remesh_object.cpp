@@ -67,14 +67,23 @@ void write_report_file(const Remesh& one, const std::filesystem::path& path, int
   });
 }
 
-py::array node_array(const Remesh& one, const std::string& frame, double scale, double size) {
+/// Returns the mesh in a frame; a pickled result has its own only.
+IndexedMesh mesh_in_frame(const Remesh& one, const std::string& frame, double scale, double size,
+                          const std::string& wanted) {
   const SimulationOptions options = simulation_options(frame, scale, size);
-  if (frame != "input" || scale != 1.0 || size != 0.0) require_whole(one, "the node table");
-  IndexedMesh mesh = one.result.mesh;
-  if (!is_pickled(one)) {
-    mesh = in_frame(std::move(mesh), simulation_frame(one.result.scan, options.frame));
-  }
-  const NodeTable table = node_table(std::move(mesh));
+  if (options.frame.frame != Frame::Input || scale != 1.0 || size != 0.0)
+    require_whole(one, wanted);
+  if (is_pickled(one)) return one.result.mesh;
+  return in_frame(one.result.mesh, simulation_frame(one.result.scan, options.frame));
+}
+
+py::tuple mesh_arrays(const Remesh& one, const std::string& frame, double scale, double size) {
+  const IndexedMesh mesh = mesh_in_frame(one, frame, scale, size, "the mesh in another frame");
+  return py::make_tuple(array_of(mesh.points), array_of(mesh.triangles));
+}
+
+py::array node_array(const Remesh& one, const std::string& frame, double scale, double size) {
+  const NodeTable table = node_table(mesh_in_frame(one, frame, scale, size, "the node table"));
   // A structured array has names for its columns, and pandas reads it.
   py::list fields;
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "area"}) {
@@ -193,6 +202,11 @@ void add_files(RemeshClass& type) {
            py::arg("threads") = 0, py::arg("progress") = py::none(),
            "Writes the report: HTML with pictures (.html), everything (.json), or a row appended "
            "to a table (.csv). HTML needs keep_scan (default).")
+      .def("in_frame", &mesh_arrays, py::arg("frame") = "input", py::kw_only(),
+           py::arg("scale") = 1.0, py::arg("size") = 0.0,
+           "Returns (vertices, faces) as \"wscvt remesh\" writes them with these options. frame: "
+           "input, centred or principal; scale: scale factor; size: equivalent diameter, instead "
+           "of scale.")
       .def("node_table", &node_array, py::kw_only(), py::arg("frame") = "input",
            py::arg("scale") = 1.0, py::arg("size") = 0.0,
            "Returns a structured array (N,) with the fields x, y, z (length), nx, ny, nz (unit, "

@@ -364,6 +364,21 @@ def test_describe_takes_its_ball_its_cut_off_and_a_progress():
     assert other["roundness_smallest_radius"] != usual["roundness_smallest_radius"]
 
 
+def test_describe_takes_the_voxel_of_a_scan(tmp_path):
+    z, y, x = np.mgrid[:28, :36, :40]
+    labels = ((x - 20) ** 2 / 16 ** 2 + (y - 18) ** 2 / 14 ** 2 + (z - 14) ** 2 / 11 ** 2 < 1).astype(np.uint8)
+    mesh = wscvt.extract(labels, 0.5)[1]
+    wscvt.write_mesh(tmp_path / "grain.ply", *mesh)
+    described = wscvt.describe(*mesh, voxel_size=0.5)
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "describe", "grain.ply", "--voxel-size", "0.5", "--report", "grain.json", "-q"],
+                   cwd=tmp_path, check=True)
+    told = json.loads((tmp_path / "grain.json").read_text())
+    assert described["resolution"] == told["resolution"]
+    assert "resolution" not in wscvt.describe(*mesh)
+    with pytest.raises(wscvt.InputError, match="voxel"):
+        wscvt.describe(*mesh, voxel_size=0.0)
+
+
 def test_create_cuts_the_series_where_told(tmp_path):
     # Degrees 0, 1 and 2, each with a size of its own.
     file = tmp_path / "series.dat"
@@ -742,6 +757,10 @@ def test_node_table_and_files_of_a_result(scan, tmp_path):
     assert table["area"].sum() == pytest.approx(result.report["descriptors"]["area"]["remesh"])
     larger = result.node_table(frame="principal", size=2.0)
     assert np.ptp(larger["x"]) > np.ptp(larger["y"]) > np.ptp(larger["z"])
+    vertices, faces = result.in_frame("principal", size=2.0)
+    np.testing.assert_array_equal(vertices, np.stack([larger[k] for k in "xyz"], axis=1))
+    np.testing.assert_array_equal(faces, result.faces)
+    np.testing.assert_array_equal(result.in_frame()[0], result.vertices)
     result.write_node_table(tmp_path / "nodes.csv", frame="principal", size=2.0)
     written = np.genfromtxt(tmp_path / "nodes.csv", delimiter=",", names=True)
     np.testing.assert_array_equal(written["nz"], larger["nz"])
@@ -765,6 +784,8 @@ def test_node_table_and_files_of_a_result(scan, tmp_path):
             write()
     with pytest.raises(wscvt.Error, match="principal"):
         result.node_table(frame="no such")
+    with pytest.raises(TypeError, match="in_frame"):
+        wscvt.remesh(*scan, nodes=60, frame="principal")
 
 
 def test_results_pickle(scan):
@@ -776,6 +797,7 @@ def test_results_pickle(scan):
     assert (str(again), repr(again)) == (str(result), repr(result))
     np.testing.assert_array_equal(again.node_table(), result.node_table())
     for call in [lambda: again.write_report("page.html"), lambda: again.node_table(frame="principal"),
+                 lambda: again.in_frame("centred"),
                  lambda: again.write_node_table("nodes.csv"), lambda: again.write_signed_distances("a.npy")]:
         with pytest.raises(wscvt.Error, match="before it is pickled"):
             call()

@@ -334,6 +334,8 @@ def describe(vertices, faces=None, reference=None, **options):
     reference: a mesh to measure against, as a pair (vertices, faces), a path, or a mesh of trimesh
         or PyVista. The dictionary then has errors in % and distances too.
     roundness_ball, roughness_cutoff: as for "wscvt describe".
+    voxel_size: of the scan, length. The dictionary then has the values without the voxels' error,
+        with intervals. None, the default, leaves them out.
     threads: as for remesh.
     progress: as for remesh.
 
