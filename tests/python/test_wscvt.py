@@ -379,6 +379,29 @@ def test_describe_takes_the_voxel_of_a_scan(tmp_path):
         wscvt.describe(*mesh, voxel_size=0.0)
 
 
+def test_grains_of_an_engine_find_places_in_a_narrow_cylinder(tmp_path):
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "clump", MESHES / "sand_5658.ply", MESHES / "angular_6000.ply", "-k", "4",
+                    "-o", "out", "--size", "0.02", "--engine", "lammps", "-q"], cwd=tmp_path, check=True)
+    places = """
+import json, sys, packing
+scene = packing.Scene()
+print(json.dumps([[*g.place, g.radius] for g in scene.grains] + [[scene.width]]))
+"""
+    described = json.loads((tmp_path / "out" / "scene.json").read_text())
+    widest = None
+    for times in (1.0, 1.55, 1.8, 2.1, 2.4, 4.0):
+        described["container"] = {"shape": "cylinder", "width": times * widest if widest else 1.0}
+        (tmp_path / "out" / "scene.json").write_text(json.dumps(described))
+        said = subprocess.run(["/usr/bin/python3", "-c", places, "9"], cwd=tmp_path / "out", check=True, timeout=60,
+                              text=True, stdout=subprocess.PIPE).stdout
+        *grains, (width,) = json.loads(said)
+        widest = widest or 2 * max(row[3] for row in grains)
+        assert len(grains) == 9
+        for k, (x, y, z, r) in enumerate(grains):
+            assert math.hypot(x, y) + r <= width / 2 and z - r >= 0
+            assert all(math.dist((x, y, z), other[:3]) > r + other[3] for other in grains[:k])
+
+
 def test_create_cuts_the_series_where_told(tmp_path):
     # Degrees 0, 1 and 2, each with a size of its own.
     file = tmp_path / "series.dat"

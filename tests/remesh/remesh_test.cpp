@@ -607,6 +607,25 @@ TEST(Remesh, ANumberOfNodesThatDoesNotReachALongBodyIsRefusedWithOneThatDoes) {
   EXPECT_EQ(remesh(test::sphere(3), options, Execution(1)).mesh.points.size(), 4U);
 }
 
+TEST(Remesh, ManyNodesThatLeaveOutMostOfASheetAreRefused) {
+  // The sheet's thickness is lost between the nodes' triangles. Its volume is then a speck's.
+  const IndexedMesh sheet = test::subdivided(test::box(20.0, 20.0, 0.001), 4);
+  const double radius = equivalent_radius(volume_of(sheet, Execution(1)));
+  RemeshOptions options;
+  int refused = 0;
+  for (const int nodes : {200, 300, 400}) {
+    options.node_count = nodes;
+    try {
+      const RemeshResult result = remesh(sheet, options, Execution(1));
+      EXPECT_LE(rms_distance(sheet, result.mesh, 1000, Execution(1)), 0.55 * radius) << nodes;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("does not reach all of it"), std::string::npos);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Remesh, FewNodesOfAThinBodyAreRefusedWithANumberThatFollowsIt) {
   const std::vector<IndexedMesh> bodies = {
       test::subdivided(test::box(10.0, 8.0, 0.3), 3),

@@ -154,23 +154,26 @@ namespace {
 
 constexpr const char* intersects = "triangles of their mesh intersect";
 
+/// A mesh with a larger rms distance, in equivalent radii, leaves out a part of the grain. A
+/// tetrahedron with the volume of a ball is off by 0.17, plates with too few nodes by 0.55 and
+/// more.
+constexpr double beside = 0.5;
+/// With fewer nodes, a mesh that is not refused is looked at for all that few nodes do.
+constexpr std::size_t few = 200;
+
 /// Why a remesh has too few nodes for a thin or long body, as the end of a sentence; empty if it
-/// has not. A number to recommend must pass even if it is large.
+/// has not. A number to recommend must pass all that few nodes must pass.
 std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
                     const IndexedMesh& mesh, bool is_recommended, const Execution& execution) {
   if (!(volume_of(mesh, execution) > 0.0)) return "their mesh encloses no volume";
-  constexpr std::size_t few = 200;
-  if (mesh.points.size() >= few && !is_recommended) return "";
-  if (!self_intersections(mesh, execution).empty()) return intersects;
+  const bool is_large = mesh.points.size() >= few && !is_recommended;
+  if (!is_large && !self_intersections(mesh, execution).empty()) return intersects;
   // As published, warnings say that the remesh is another body.
   if (std::get_if<OnScanOptions>(&options.method) == nullptr) return "";
   // Thin with the scan between its faces: a tetrahedron of a ball has 1.5 times its area.
-  if (describe_shape(mesh, execution).area > 2.0 * grain.scan.shape.area) {
+  if (!is_large && describe_shape(mesh, execution).area > 2.0 * grain.scan.shape.area) {
     return "their mesh reaches beyond it";
   }
-  // In equivalent radii. A tetrahedron with the volume of a ball is off by 0.17, plates with
-  // too few nodes by 0.55 and more.
-  constexpr double beside = 0.5;
   constexpr std::size_t samples = 1000;
   if (rms_distance(grain.scan.mesh, mesh, samples, execution) > beside) {
     return "their mesh does not reach all of it";
@@ -208,7 +211,8 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.options = options;
   result.options.node_count = node_count;
   Nodes nodes = grain.method->place(node_count, execution.part(0.0, 0.9));
-  if (!searches(options)) refuse_too_few(grain, options, nodes.mesh, execution);
+  const bool is_few = nodes.mesh.points.size() < few || !(volume_of(nodes.mesh, execution) > 0.0);
+  if (is_few && !searches(options)) refuse_too_few(grain, options, nodes.mesh, execution);
   result.mesh = std::move(nodes.mesh);
   result.cell_areas = std::move(nodes.cell_areas);
   result.curvatures = std::move(nodes.curvatures);
@@ -219,6 +223,9 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.remesh = describe_shape(result.mesh, execution.part(0.9, 0.92));
   result.quality = measure_quality(result.mesh, execution);
   add_distances(grain, result, execution.part(0.92, 0.98));
+  if (!is_few && !searches(options) && result.rms_distance > beside) {
+    refuse_too_few(grain, options, result.mesh, execution);
+  }
   result.centre = grain.scan.centre;
   result.input = grain.input;
   result.steep_area_fraction = grain.steep_area_fraction;

@@ -120,19 +120,23 @@ class Scene:
     def put_above_each_other(self):
         """Puts grains row by row and layer by layer, so that none touches another. Returns the height."""
         gap, half = 0.05 * self.mean_diameter, self.width / 2
-        x, y, z, row, layer = -half, -half, 0.0, 0.0, 0.0
+        x, y, z, row, layer, used = -half, -half, 0.0, 0.0, 0.0, False
         for grain in self.grains:
             step = 2 * grain.radius + gap
             while True:
                 if x + step > half:
                     x, y, row = -half, y + row, 0.0
+                if y + step > half and not used:  # no square of a row is within the cylinder
+                    x, y, middle = half, half, (0.0, 0.0)
+                    break
                 if y + step > half:
-                    x, y, z, row, layer = -half, -half, z + layer, 0.0, 0.0
+                    x, y, z, row, layer, used = -half, -half, z + layer, 0.0, 0.0, False
                 row, layer = max(row, step), max(layer, step)
                 middle = (x + step / 2, y + step / 2)
                 x += step
                 if self.shape == "box" or math.hypot(*middle) + step / 2 <= half:
                     break
+            used = True
             grain.place = np.array([*middle, z + step / 2])
         return z + layer
 
