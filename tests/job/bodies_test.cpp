@@ -357,6 +357,32 @@ TEST(Bodies, FillPoresWithTrianglesOfTheirOwn) {
 }
 
 // At an end of the common edge, three faces at a corner make two squares of the same vertices.
+TEST(Bodies, WithNamesInOthersAreInclusionsIfTheyLookOutward) {
+  const IndexedMesh host = test::box(11.0, 9.0, 10.0);
+  for (const bool inward : {false, true}) {
+    for (const bool named : {false, true}) {
+      SCOPED_TRACE(::testing::Message() << inward << named);
+      IndexedMesh inner = test::box(4.0, 3.0, 2.0);
+      if (inward) inner = inside_out(inner);
+      NamedFaces names;
+      names.names = {"host", "inclusion"};
+      names.of_face.assign(host.triangles.size(), 0);
+      names.of_face.resize(host.triangles.size() + inner.triangles.size(), named ? 1 : 0);
+      const MeshBodies bodies = split_bodies(test::joined(host, inner), {names}, Execution(1));
+      const bool is_body = named && !inward;
+      ASSERT_EQ(bodies.list.size(), is_body ? 2U : 1U);
+      EXPECT_EQ(bodies.list[0].pores, 1U);
+      EXPECT_NEAR(bodies.list[0].pore_volume, 24.0, 1e-9);
+      EXPECT_EQ(bodies.warnings.size(), is_body ? 1U : 0U);
+      if (!is_body) continue;
+      EXPECT_EQ(bodies.list[0].name, "host");
+      EXPECT_EQ(bodies.list[1].name, "inclusion");
+      EXPECT_NEAR(bodies.list[1].volume, 24.0, 1e-9);
+      EXPECT_EQ(bodies.list[1].pores, 0U);
+    }
+  }
+}
+
 TEST(Bodies, KeepTheirCornersWhereTheyTouchInAnEdge) {
   // However their squares are cut.
   for (int way = 0; way < 64; ++way) {

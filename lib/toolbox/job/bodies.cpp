@@ -317,6 +317,7 @@ class PartFinder {
   std::size_t pieces = 0;
   std::size_t left_out = 0;  ///< faces that enclose nothing
   std::size_t maybe_voids = 0;
+  std::size_t inclusions = 0;  ///< bodies in a body, by their names; counted by assemble
 
  private:
   static FaceList sources_of(const FaceList& faces, const FaceList& source) {
@@ -637,6 +638,24 @@ void add_pore(const IndexedMesh& pore, double volume, MeshBody& body) {
   body.pore_volume += volume;
 }
 
+/// Returns the name that all faces of a list have, else -1.
+std::int32_t only_name(const NamedFaces& level, const FaceList& faces) {
+  const std::int32_t name = level.of_face[index(faces.front())];
+  const bool has_one = name >= 0 && std::all_of(faces.begin(), faces.end(), [&](std::int32_t f) {
+                         return level.of_face[index(f)] == name;
+                       });
+  return has_one ? name : -1;
+}
+
+/// Whether names tell two parts apart.
+bool have_own_names(const std::vector<NamedFaces>& names, const Part& a, const Part& b) {
+  return std::any_of(names.begin(), names.end(), [&](const NamedFaces& level) {
+    const std::int32_t name = only_name(level, a.source);
+    const std::int32_t other = only_name(level, b.source);
+    return name >= 0 && other >= 0 && name != other;
+  });
+}
+
 /// Names bodies by the coarsest names that tell them apart, else by the coarsest.
 void name_bodies(const std::vector<NamedFaces>& names, const std::vector<FaceList>& sources,
                  std::vector<MeshBody>& bodies) {
@@ -644,11 +663,8 @@ void name_bodies(const std::vector<NamedFaces>& names, const std::vector<FaceLis
     std::vector<std::int32_t> own(bodies.size(), -1);
     std::vector<std::size_t> users(level.names.size(), 0);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-      const std::int32_t name = level.of_face[index(sources[k].front())];
-      const bool has_one =
-          name >= 0 && std::all_of(sources[k].begin(), sources[k].end(),
-                                   [&](std::int32_t f) { return level.of_face[index(f)] == name; });
-      if (has_one) ++users[index(own[k] = name)];
+      own[k] = only_name(level, sources[k]);
+      if (own[k] >= 0) ++users[index(own[k])];
     }
     std::map<std::string, std::size_t> namesakes;
     for (const MeshBody& body : bodies) ++namesakes[body.name];
@@ -680,7 +696,12 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
       if (container[p] == none || place[holder] > place[container[p]]) container[p] = holder;
     }
     const bool is_in_solid = container[p] != none && solid[container[p]] != 0;
-    solid[p] = static_cast<char>(part.is_always_solid || is_in_solid == part.is_void);
+    // A surface with a name of its own that looks out of its body is an inclusion, not a pore.
+    const bool is_inclusion = is_in_solid && !part.was_inward && !part.is_void &&
+                              have_own_names(names, part, parts[container[p]]);
+    if (is_inclusion) ++found.inclusions;
+    solid[p] =
+        static_cast<char>(part.is_always_solid || is_inclusion || is_in_solid == part.is_void);
   }
   std::vector<MeshBody> bodies;
   std::vector<FaceList> sources;
@@ -776,6 +797,15 @@ MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
                                        "face hangs on a body and encloses nothing. It was",
                                        "faces hang on bodies and enclose nothing. They were") +
                               " left out.");
+  }
+  if (found.inclusions > 0) {
+    result.warnings.push_back(
+        (found.inclusions == 1
+             ? std::string("1 body lies in another: its surface has a name of its own")
+             : std::to_string(found.inclusions) +
+                   " bodies lie in others: their surfaces have names of their own") +
+        " and faces that look outward. The body around has a pore there. If it is only a pore, "
+        "leave out the body in it.");
   }
   if (found.maybe_voids > 0) {
     result.warnings.push_back("All faces of " +

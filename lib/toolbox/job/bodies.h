@@ -36,9 +36,10 @@ struct MeshBodies {
 /// 2. Surfaces connected through edges bound regions (see mesh_cells.h). Each region that they
 /// enclose is
 ///    a body. A wall has two sides, whether it is there once or twice.
-/// 3. A closed surface directly inside a body is a pore of it. A surface inside a pore is a body
-///    again, also if it fills the pore, with triangles of its own; so are regions inside a body
-///    with a wall between them. Surfaces that intersect are bodies side by side.
+/// 3. A closed surface directly inside a body is a pore of it. If it looks outward and has another
+///    name than the body, it is an inclusion: a body that fills the pore. A surface inside a pore
+///    is a body again, also if it fills the pore, with triangles of its own; so are regions inside
+///    a body with a wall between them. Surfaces that intersect are bodies side by side.
 ///
 /// An open surface is a body too, wherever it lies. Faces that hang on a body and enclose nothing
 /// are left out up to 5 % of its area. A second copy of a body is left out. Repairs nothing else.
