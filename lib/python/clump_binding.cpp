@@ -10,6 +10,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "option_arguments.h"
 #include "toolbox/clump/clump.h"
 #include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/clump_report.h"
@@ -32,24 +33,9 @@ py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
   return array;
 }
 
-ClumpOptions clump_options(int spheres, double max_error, const std::string& error_measure,
-                           int max_spheres, double smallest_radius, bool inside, int remesh_nodes) {
-  ClumpOptions options;
-  options.sphere_count = spheres;
-  options.max_error_percent = max_error;
-  options.error_measure = from_key<ClumpError>(lower_case(error_measure));
-  options.most_spheres = max_spheres;
-  options.smallest_radius_percent = smallest_radius;
-  options.inside = inside;
-  options.compared_nodes = remesh_nodes;
-  return options;
-}
-
-py::object clump(const Points& vertices, const py::object& faces, int spheres, double max_error,
-                 const std::string& error_measure, int max_spheres, double smallest_radius,
-                 bool inside, int remesh_nodes, int threads, const py::object& progress) {
-  const ClumpOptions options = clump_options(spheres, max_error, error_measure, max_spheres,
-                                             smallest_radius, inside, remesh_nodes);
+py::object clump(const Points& vertices, const py::object& faces, int threads,
+                 const py::object& progress, const py::kwargs& given) {
+  const ClumpOptions options = clump_options_of(given);
   IndexedMesh scan = mesh_of(vertices, faces);
   const ClumpResult result = work_on(threads, progress, [&](const Execution& execution) {
     return make_clump(std::move(scan), options, execution);
@@ -60,14 +46,11 @@ py::object clump(const Points& vertices, const py::object& faces, int spheres, d
 }
 
 py::dict clump_files(const std::vector<std::string>& inputs, const std::filesystem::path& output,
-                     int spheres, const std::string& shard, const std::string& format,
-                     const std::string& frame, double scale, double size, double density,
-                     double max_error, const std::string& error_measure, int max_spheres,
-                     double smallest_radius, bool inside, int remesh_nodes, int threads,
-                     const py::object& progress) {
+                     const std::string& shard, const std::string& format, const std::string& frame,
+                     double scale, double size, double density, int threads,
+                     const py::object& progress, const py::kwargs& given) {
   ClumpJob options;
-  options.clump = clump_options(spheres, max_error, error_measure, max_spheres, smallest_radius,
-                                inside, remesh_nodes);
+  options.clump = clump_options_of(given);
   options.frame = frame_of(frame, scale, size);
   options.density = density;
   options.format = format;
@@ -78,26 +61,13 @@ py::dict clump_files(const std::vector<std::string>& inputs, const std::filesyst
 
 }  // namespace
 
+// wscvt/__init__.py documents the arguments and results of these functions.
 void bind_clump(py::module_& module) {
-  const ClumpOptions usual;
-  module.def(
-      "clump", &clump, py::arg("vertices"), py::arg("faces"),
-      py::arg("spheres").noconvert() = usual.sphere_count, py::kw_only(),
-      py::arg("max_error") = usual.max_error_percent, py::arg("error_measure") = "distance",
-      py::arg("max_spheres") = usual.most_spheres,
-      py::arg("smallest_radius") = usual.smallest_radius_percent, py::arg("inside") = usual.inside,
-      py::arg("remesh_nodes") = usual.compared_nodes, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
-      "Fits overlapping spheres to a grain. Returns the dictionary of the JSON report, with "
-      "spheres as an array (k, 4) of x, y, z and radius. max_error is in %, smallest_radius in % "
-      "of the equivalent radius. Arrays as for remesh. Lengths are in the unit of the mesh.");
-  module.def("_clump_files", &clump_files, py::arg("inputs"), py::arg("output"), py::arg("spheres"),
-             py::kw_only(), py::arg("shard") = "1/1", py::arg("format") = "csv",
-             py::arg("frame") = "input", py::arg("scale") = 1.0, py::arg("size") = 0.0,
-             py::arg("density") = 1.0, py::arg("max_error") = usual.max_error_percent,
-             py::arg("error_measure") = "distance", py::arg("max_spheres") = usual.most_spheres,
-             py::arg("smallest_radius") = usual.smallest_radius_percent,
-             py::arg("inside") = usual.inside, py::arg("remesh_nodes") = usual.compared_nodes,
+  module.def("clump", &clump, py::arg("vertices"), py::arg("faces"), py::kw_only(),
+             py::arg("threads") = 0, py::arg("progress") = py::none());
+  module.def("_clump_files", &clump_files, py::arg("inputs"), py::arg("output"), py::kw_only(),
+             py::arg("shard") = "1/1", py::arg("format") = "csv", py::arg("frame") = "input",
+             py::arg("scale") = 1.0, py::arg("size") = 0.0, py::arg("density") = 1.0,
              py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 

@@ -22,14 +22,12 @@ namespace py = pybind11;
 
 namespace {
 
-py::tuple convex(const Points& vertices, const py::object& faces, int parts, int part_faces,
-                 double tolerance, int threads, const py::object& progress,
+py::tuple convex(const Points& vertices, const py::object& triangles, int count, int faces,
+                 double max_error, int threads, const py::object& progress,
                  const py::kwargs& given) {
-  RemeshOptions defaults;
-  defaults.node_count = convex_node_count;
-  const RemeshOptions remesh_options = options_of(given, defaults);
-  const ConvexOptions options{parts, part_faces, tolerance};
-  IndexedMesh scan = mesh_of(vertices, faces);
+  const RemeshOptions remesh_options = options_of(given, "convex");
+  const ConvexOptions options{count, faces, max_error};
+  IndexedMesh scan = mesh_of(vertices, triangles);
   const PartsResult result = work_on(threads, progress, [&](const Execution& execution) {
     return make_parts(std::move(scan), remesh_options, options, execution);
   });
@@ -42,12 +40,12 @@ py::tuple convex(const Points& vertices, const py::object& faces, int parts, int
 
 py::dict convex_files(const std::vector<std::string>& inputs, const std::filesystem::path& output,
                       const std::string& shard, const std::string& format, const std::string& frame,
-                      double scale, double size, double density, int parts, int part_faces,
-                      double tolerance, int threads, const py::object& progress,
+                      double scale, double size, double density, int count, int faces,
+                      double max_error, int threads, const py::object& progress,
                       const py::kwargs& given) {
   ConvexJob options;
-  options.remesh = options_of(given, options.remesh);
-  options.convex = {parts, part_faces, tolerance};
+  options.remesh = options_of(given, "convex");
+  options.convex = {count, faces, max_error};
   options.frame = frame_of(frame, scale, size);
   options.density = density;
   options.format = format;
@@ -58,24 +56,18 @@ py::dict convex_files(const std::vector<std::string>& inputs, const std::filesys
 
 }  // namespace
 
+// wscvt/__init__.py documents the arguments and results of these functions.
 void bind_convex(py::module_& module) {
-  module.def("convex", &convex, py::arg("vertices"), py::arg("faces"), py::kw_only(),
-             py::arg("parts").noconvert() = ConvexOptions().parts,
-             py::arg("part_faces") = ConvexOptions().faces,
-             py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
-             py::arg("progress") = py::none(),
-             "Divides a grain into at most `parts` convex parts, for physics engines. Returns a "
-             "list with a pair (vertices, faces) for each part, and a dictionary with distances "
-             "from the grain, volume and the grain's mass properties. part_faces: max. number of "
-             "faces of a part. tolerance: max. distance of a hull that is not cut, % of the "
-             "equivalent radius. "
-             "The scan and the options of its remesh are as for remesh. Raises Error.");
+  const ConvexOptions usual;
+  module.def("convex", &convex, py::arg("vertices"), py::arg("triangles"), py::kw_only(),
+             py::arg("count").noconvert() = usual.parts, py::arg("faces").noconvert() = usual.faces,
+             py::arg("max_error") = usual.tolerance, py::arg("threads") = 0,
+             py::arg("progress") = py::none());
   module.def("_convex_files", &convex_files, py::arg("inputs"), py::arg("output"), py::kw_only(),
              py::arg("shard") = "1/1", py::arg("format") = "obj", py::arg("frame") = "input",
              py::arg("scale") = 1.0, py::arg("size") = 0.0, py::arg("density") = 1.0,
-             py::arg("parts") = ConvexOptions().parts,
-             py::arg("part_faces") = ConvexOptions().faces,
-             py::arg("tolerance") = ConvexOptions().tolerance, py::arg("threads") = 0,
+             py::arg("count").noconvert() = usual.parts, py::arg("faces").noconvert() = usual.faces,
+             py::arg("max_error") = usual.tolerance, py::arg("threads") = 0,
              py::arg("progress") = py::none());
 }
 

@@ -55,11 +55,11 @@ py::dict report_of(const Fragments& result) {
   return report;
 }
 
-py::tuple fragment(const Points& vertices, const py::object& faces, int fragments,
-                   std::uint64_t seed, const std::vector<double>& volumes, const py::object& near,
-                   double edge_length, int nodes, int threads, const py::object& progress) {
+py::tuple fragment(const Points& vertices, const py::object& faces, int count, std::uint64_t seed,
+                   const std::vector<double>& volumes, const py::object& near, double edge_length,
+                   int nodes, int threads, const py::object& progress) {
   FragmentOptions options;
-  options.count = fragments;
+  options.count = count;
   options.seed = seed;
   options.volumes = volumes;
   if (!near.is_none()) options.near = points_of(py::cast<Points>(near));
@@ -89,19 +89,14 @@ py::tuple fragment(const Points& vertices, const py::object& faces, int fragment
 
 }  // namespace
 
+// wscvt/__init__.py documents the arguments and the result.
 void bind_fragment(py::module_& module) {
   const FragmentOptions usual;
-  module.def(
-      "fragment", &fragment, py::arg("vertices"), py::arg("faces"),
-      py::arg("fragments").noconvert() = usual.count, py::kw_only(), py::arg("seed") = usual.seed,
-      py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
-      py::arg("edge_length") = 0.0, py::arg("nodes") = 0, py::arg("threads") = 0,
-      py::arg("progress") = py::none(),
-      "Divides a grain into exactly `fragments` closed fragments that fill it and have "
-      "common walls. Returns a list with a pair (vertices, faces) for each, and a dictionary "
-      "with their measures and contacts. volumes: relative, one per fragment. near: points "
-      "(n, 3) near which fragments are smaller. edge_length, or nodes per fragment: remeshes them "
-      "with common walls. Raises Error.");
+  module.def("fragment", &fragment, py::arg("vertices"), py::arg("faces"), py::kw_only(),
+             py::arg("count").noconvert() = usual.count, py::arg("seed") = usual.seed,
+             py::arg("volumes") = std::vector<double>(), py::arg("near") = py::none(),
+             py::arg("edge_length") = 0.0, py::arg("nodes") = 0, py::arg("threads") = 0,
+             py::arg("progress") = py::none());
 }
 
 }  // namespace wscvt::python

@@ -122,7 +122,7 @@ py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::pa
   volume.at_border = at_border;
   volume.parts = parts;
   volume.separate = separate;
-  options.remesh = options_of(given, {});
+  options.remesh = options_of(given, "batch");
   options.levels = levels;
   options.shapes.described = value_of_name<Described>(describe);
   options.shapes.contacts = options.shapes.described == Described::Contacts;

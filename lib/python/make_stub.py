@@ -23,6 +23,9 @@ def annotation(name, default):
 
 both = {**wscvt.options(), **wscvt.options("as-published")}
 lines = {name: f"    {name}: {annotation(name, default)} = ...,\n" for name, default in both.items()}
-text = template.read_text().replace("    # options\n", "".join(lines.values()))
+text = template.read_text()
+for function in ("create", "convex"):
+    text = text.replace(f"    # options of {function}\n",
+                        "".join(lines[name] for name in wscvt._wscvt._option_help(function)))
 del lines["nodes"]
 stub.write_text(text.replace("    # options but nodes\n", "".join(lines.values())))

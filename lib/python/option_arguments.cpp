@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/clump/clump_options.h"
+#include "toolbox/convex/convex_options.h"
 #include "wscvt/base/error.h"
 #include "wscvt/remesh/remesh_options.h"
 
@@ -24,6 +28,22 @@ std::string keyword_of(std::string_view key) {
   std::string keyword(key);
   std::replace(keyword.begin(), keyword.end(), '-', '_');
   return keyword;
+}
+
+Remeshed remeshed_by(const std::string& function) {
+  if (function == "create") return Remeshed::Surface;
+  return function == "convex" ? Remeshed::Parts : Remeshed::Scan;
+}
+
+RemeshOptions usual_options(Remeshed remeshed) {
+  RemeshOptions options;
+  if (remeshed == Remeshed::Surface) {
+    OnScanOptions on_surface;
+    on_surface.placement = ScanPlacement::OnSurface;
+    options.method = on_surface;
+  }
+  if (remeshed == Remeshed::Parts) options.node_count = convex_node_count;
+  return options;
 }
 
 template <class Value>
@@ -45,10 +65,11 @@ void check_whole(const std::string& keyword, const py::handle& value, const std:
                        ". Give " + wanted + ".");
 }
 
-/// Reads the given options.
+/// Reads the given options of a function.
 class ReadOptions {
  public:
-  explicit ReadOptions(const py::dict& given) : given_(given) {}
+  ReadOptions(const py::dict& given, std::string function)
+      : given_(given), function_(std::move(function)), remeshed_(remeshed_by(function_)) {}
 
   template <class Number>
   void operator()(Number& value, const NumberOption<Number>& option) {
@@ -84,26 +105,36 @@ class ReadOptions {
     if (found_ == given_.size()) return;
     for (const auto& [name, value] : given_) {
       const auto keyword = name.cast<std::string>();
-      if (std::find(known_.begin(), known_.end(), keyword) != known_.end()) continue;
-      std::string key = keyword;
-      std::replace(key.begin(), key.end(), '_', '-');
-      const Sentence refusal = refusal_of_option(key, method_);
-      if (!refusal.empty())
-        throw py::type_error("The option " + keyword + ": " + in_words_of_python(refusal));
-      if (keyword == "frame" || keyword == "scale" || keyword == "size") {
-        throw py::type_error(
-            "A result is in the frame of its scan. Call its in_frame(), or write "
-            "its files with " +
-            keyword + ".");
-      }
-      throw py::type_error("There is no option " + keyword +
-                           ". wscvt.options() lists the options and their defaults.");
+      if (is_known(keyword)) continue;
+      if (is_known("method")) refuse_of_remesh(keyword);
+      throw py::type_error("There is no option " + keyword + " of " + function_ + ". help(wscvt." +
+                           function_ + ") lists the options.");
     }
   }
 
  private:
+  bool is_known(const std::string& keyword) const {
+    return std::find(known_.begin(), known_.end(), keyword) != known_.end();
+  }
+
+  /// Throws TypeError for an option of the other method, and for one of the result.
+  void refuse_of_remesh(const std::string& keyword) const {
+    std::string key = keyword;
+    std::replace(key.begin(), key.end(), '_', '-');
+    const Sentence refusal = refusal_of_option(key, method_);
+    if (!refusal.empty() && is_option_of(key, remeshed_))
+      throw py::type_error("The option " + keyword + ": " + in_words_of_python(refusal));
+    if (keyword == "frame" || keyword == "scale" || keyword == "size") {
+      throw py::type_error(
+          "A result is in the frame of its scan. Call its in_frame(), or write "
+          "its files with " +
+          keyword + ".");
+    }
+  }
+
   template <class Read>
   void read(std::string_view key, const Read& read) {
+    if (!is_option_of(key, remeshed_)) return;
     known_.push_back(keyword_of(key));
     const std::string& keyword = known_.back();
     if (!given_.contains(keyword.c_str())) return;
@@ -112,6 +143,8 @@ class ReadOptions {
   }
 
   const py::dict& given_;
+  std::string function_;
+  Remeshed remeshed_;
   std::vector<std::string> known_;
   std::size_t found_ = 0;
   Method method_ = Method::OnScan;
@@ -133,15 +166,30 @@ class OptionsToDict {
   py::dict options_;
 };
 
-/// A line of help for each option: name, subject, range or values, default, meaning.
+/// A line of help for each option: name, subject, method, range or values, default, meaning.
 class OptionsToHelp {
  public:
+  explicit OptionsToHelp(Remeshed remeshed) : remeshed_(remeshed) {}
+
+  /// Options that follow belong to one method.
+  void begin_method(Method method) {
+    if (is_option_of(EnumerationTable<Method>::key, remeshed_))
+      of_method_ = " (" + key_of(method) + ")";
+  }
+  void end_methods() { of_method_.clear(); }
+
   template <class Number>
   void operator()(const Number& value, const NumberOption<Number>& option) {
-    add(option.key, option.subject, range_text(option), typed_text(value), option.meaning);
+    const std::string meaning =
+        option.meaning.empty() ? "" : " " + capitalised(option.meaning) + ".";
+    add(option.key, option.subject,
+        ": " + range_text(option) + ". Default: " + typed_text(value) + "." + meaning);
   }
   void operator()(const bool& value, const FlagOption& option) {
-    add(option.key, option.subject, "True or False", value ? "True" : "False", option.meaning);
+    // Subject and meaning are one sentence.
+    add(option.key, "True or False",
+        ". Default: " + std::string(value ? "True" : "False") + ". " + capitalised(option.subject) +
+            " " + std::string(option.meaning) + ".");
   }
   template <class Enumeration>
   void operator()(const Enumeration& value) {
@@ -151,17 +199,26 @@ class OptionsToHelp {
       if (!row.meaning.empty()) values += " (" + std::string(row.meaning) + ")";
     }
     using Table = EnumerationTable<Enumeration>;
-    add(Table::key, Table::subject, values, "\"" + key_of(value) + "\"", "");
+    add(Table::key, Table::subject, ": " + values + ". Default: \"" + key_of(value) + "\".");
   }
   py::dict lines_;
 
  private:
-  void add(std::string_view key, std::string_view subject, const std::string& values,
-           const std::string& usual, std::string_view meaning) {
-    std::string line = capitalised(subject) + ": " + values + ". Default: " + usual + ".";
-    if (!meaning.empty()) line += " " + capitalised(meaning) + ".";
-    lines_[keyword_of(key).c_str()] = line;
+  void add(std::string_view key, std::string_view subject, const std::string& rest) {
+    if (!is_option_of(key, remeshed_)) return;
+    const std::string keyword = keyword_of(key);
+    std::string line = capitalised(subject) + of_method_ + rest;
+    if (lines_.contains(keyword.c_str())) {
+      // Both methods have the option, with the same values or each with its own.
+      const auto before = lines_[keyword.c_str()].cast<std::string>();
+      const bool is_same = before.find(rest) != std::string::npos;
+      line = is_same ? capitalised(subject) + rest : before + " " + line;
+    }
+    lines_[keyword.c_str()] = line;
   }
+
+  Remeshed remeshed_;
+  std::string of_method_;
 };
 
 /// The names of each option's values, by the option.
@@ -186,10 +243,21 @@ class ChoicesToDict {
 
 }  // namespace
 
-RemeshOptions options_of(const py::dict& given, RemeshOptions options) {
-  ReadOptions read(given);
+RemeshOptions options_of(const py::dict& given, const std::string& function) {
+  RemeshOptions options = usual_options(remeshed_by(function));
+  ReadOptions read(given, function);
   for_each_option(options, read);
   read.finish();
+  return options;
+}
+
+ClumpOptions clump_options_of(const py::dict& given) {
+  ClumpOptions options;
+  ReadOptions read(given, "clump");
+  for_each_clump_option(options, read);
+  read.finish();
+  // As of the program: with an allowed error, a given number is the limit.
+  if (given.contains("count")) options.most_spheres = options.sphere_count;
   return options;
 }
 
@@ -206,15 +274,20 @@ void bind_options(py::module_& module) {
         return dict.options_;
       },
       py::arg("method") = key_of(Method::OnScan),
-      "Returns all options of remesh and create for a method, with their defaults. The names are "
-      "the command-line names, with _ for -.");
-  module.def("_option_help", [] {
-    OptionsToHelp help;
-    const RemeshOptions options;
+      "Returns all options of remesh for a method, with their defaults. The names are the "
+      "command-line names, with _ for -.");
+  module.def("_option_help", [](const std::string& function) {
+    const Remeshed remeshed = remeshed_by(function);
+    const RemeshOptions options = usual_options(remeshed);
     const AsPublishedOptions published;
-    // The values on the scan replace those of the published method.
+    OptionsToHelp help(remeshed);
+    help(method_of(options));
+    help.begin_method(Method::OnScan);
+    for_each_method_option(std::get<OnScanOptions>(options.method), help);
+    help.begin_method(Method::AsPublished);
     for_each_method_option(published, help);
-    for_each_option(options, help);
+    help.end_methods();
+    for_each_common_option(options, help);
     return help.lines_;
   });
   module.def("_choices", [] {

@@ -25,7 +25,7 @@ namespace {
 Remesh remesh(const Points& vertices, const py::object& faces, int threads,
               const py::object& progress, const std::string& source, bool keep_scan,
               const py::kwargs& given) {
-  RemeshOptions options = options_of(given, {});
+  RemeshOptions options = options_of(given, "remesh");
   options.measures.repaired_scan = keep_scan;
   IndexedMesh scan = mesh_of(vertices, faces);
   return {work_on(threads, progress,
@@ -36,21 +36,17 @@ Remesh remesh(const Points& vertices, const py::object& faces, int threads,
 }
 
 Remesh create(const std::string& kind, const std::array<double, 3>& semi_axes,
-              double polar_exponent, double azimuthal_exponent,
-              const std::filesystem::path& coefficients_file, int coefficient_degree, int threads,
+              const std::array<double, 2>& exponents,
+              const std::filesystem::path& coefficients_file, int degree, int threads,
               const py::object& progress, const py::kwargs& given) {
   GrainSurface surface;
   surface.kind = value_of_name<SurfaceKind>(kind);
   surface.semi_axes = Vector3(semi_axes[0], semi_axes[1], semi_axes[2]);
-  surface.polar_exponent = polar_exponent;
-  surface.azimuthal_exponent = azimuthal_exponent;
+  surface.polar_exponent = exponents[0];
+  surface.azimuthal_exponent = exponents[1];
   surface.coefficients_file = coefficients_file.string();
-  surface.coefficient_degree = coefficient_degree;
-  RemeshOptions defaults;
-  OnScanOptions on_surface;
-  on_surface.placement = ScanPlacement::OnSurface;
-  defaults.method = on_surface;
-  const RemeshOptions options = options_of(given, defaults);
+  surface.coefficient_degree = degree;
+  const RemeshOptions options = options_of(given, "create");
   return {work_on(threads, progress,
                   [&](const Execution& execution) {
                     return ::wscvt::remesh(surface, options, execution);
@@ -67,8 +63,8 @@ void bind_remesh(py::module_& module) {
              py::arg("keep_scan") = true);
   module.def("create", &create, py::arg("surface"), py::kw_only(),
              py::arg("semi_axes") = std::array<double, 3>{1.0, 1.0, 1.0},
-             py::arg("polar_exponent") = 1.0, py::arg("azimuthal_exponent") = 1.0,
-             py::arg("coefficients_file") = "", py::arg("coefficient_degree") = -1,
+             py::arg("exponents") = std::array<double, 2>{1.0, 1.0},
+             py::arg("coefficients_file") = "", py::arg("degree").noconvert() = -1,
              py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 

@@ -74,17 +74,18 @@ SampleTables tables_of(NamedSample& sample, const Execution& execution) {
 }
 
 py::object sample(std::vector<NamedSample> samples, const std::vector<std::string>& reports,
-                  const std::string& size, const std::string& of,
-                  const std::vector<double>& density, double mark, std::uint64_t seed,
+                  const std::string& diameter, const std::string& describe,
+                  const std::vector<double>& density, double max_error, std::uint64_t seed,
                   int repetitions, int threads, const py::object& progress) {
   SampleReport report;
-  report.options.size = value_of_name<SizeMeasure>(size);
-  report.options.of = value_of_name<SampledMesh>(of);
+  report.options.size = value_of_name<SizeMeasure>(diameter);
+  report.options.of = value_of_name<SampledMesh>(describe);
   report.options.seed = seed;
   report.options.repetitions = repetitions;
   const std::string json = work_on(threads, progress, [&](const Execution& execution) {
     for (NamedSample& one : samples) {
-      add_sample(report, std::get<0>(one), tables_of(one, execution), density, mark, execution);
+      add_sample(report, std::get<0>(one), tables_of(one, execution), density, max_error,
+                 execution);
     }
     compare_samples(report, execution);
     for (const std::string& path : reports) write_sample_report(path, report, execution);
@@ -100,8 +101,8 @@ void bind_sample(py::module_& module) {
   module.def("read_table", &read_table, py::arg("path"));
   module.def("sample_files", &sample_files, py::arg("path"));
   module.def("sample", &sample, py::arg("samples"), py::arg("reports"), py::kw_only(),
-             py::arg("diameter") = key_of(defaults.size), py::arg("of") = key_of(defaults.of),
-             py::arg("density") = std::vector<double>(), py::arg("mark") = usual_mark_percent,
+             py::arg("diameter") = key_of(defaults.size), py::arg("describe") = key_of(defaults.of),
+             py::arg("density") = std::vector<double>(), py::arg("max_error") = usual_mark_percent,
              py::arg("seed") = defaults.seed, py::arg("repetitions") = defaults.repetitions,
              py::arg("threads") = 0, py::arg("progress") = py::none());
 }

@@ -28,13 +28,13 @@ py::array_t<std::int32_t> corners_of(const TetrahedralMesh& mesh) {
   return corners;
 }
 
-py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge,
+py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge_length,
                     const std::optional<std::filesystem::path>& output, int threads,
                     const py::object& progress) {
   if (output) check_tetrahedra_file(output->string());
   IndexedMesh surface = mesh_of(vertices, faces);
   const TetrahedralMesh mesh = work_on(threads, progress, [&](const Execution& execution) {
-    TetrahedralMesh made = tetrahedra_in(std::move(surface), edge, execution);
+    TetrahedralMesh made = tetrahedra_in(std::move(surface), edge_length, execution);
     if (output) write_tetrahedra(output->string(), made);
     return made;
   });
@@ -53,7 +53,7 @@ py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge
 // wscvt/__init__.py documents the arguments and the result.
 void bind_tetrahedra(py::module_& module) {
   module.def("tetrahedra", &tetrahedra, py::arg("vertices"), py::arg("faces"), py::kw_only(),
-             py::arg("edge") = 0.0, py::arg("output") = py::none(), py::arg("threads") = 0,
+             py::arg("edge_length") = 0.0, py::arg("output") = py::none(), py::arg("threads") = 0,
              py::arg("progress") = py::none());
 }
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex parts, and what a scan carries."""
+import json
 import os
 import pathlib
 import subprocess
@@ -70,14 +71,31 @@ def test_a_texture_becomes_colours(tmp_path):
 
 
 def test_convex_parts_hold_the_grain():
-    parts, report = wscvt.convex(MESHES / "sand_5658.ply", parts=2, nodes=150)
+    parts, report = wscvt.convex(MESHES / "sand_5658.ply", count=2, nodes=150)
     assert len(parts) == report["parts"] == 2
     for vertices, faces in parts:
         assert vertices.shape[1] == 3 and len(faces) == 2 * len(vertices) - 4 and len(faces) <= 255
     assert 0 < report["rms_distance"] < report["largest_distance"]
     assert report["mass_properties"]["volume"] > 0 and report["excess_volume_percent"] > 0
     with pytest.raises(wscvt.Error, match="number of parts"):
-        wscvt.convex(MESHES / "sand_5658.ply", parts=0, nodes=150)
+        wscvt.convex(MESHES / "sand_5658.ply", count=0, nodes=150)
+
+
+def test_max_error_and_faces_are_those_of_the_parts(tmp_path):
+    grain = wscvt.remesh(MESHES / "sand_5658.ply", 300)
+    wscvt.write_mesh(tmp_path / "grain.ply", grain)
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "convex", tmp_path / "grain.ply", "-n", "100", "-q", "--max-error", "10",
+                    "--faces", "40", "-o", tmp_path / "parts.obj", "--report", tmp_path / "parts.json"], check=True)
+    # The triangles of the grain are not those of a part.
+    parts, report = wscvt.convex(grain.vertices, grain.faces, nodes=100, max_error=10.0, faces=40)
+    told = json.loads((tmp_path / "parts.json").read_text())
+    assert report["parts"] == told["parts"] == len(parts) < 8
+    assert all(len(faces) <= 40 for _, faces in parts)
+    assert len(wscvt.convex(grain, 1, nodes=100)[0]) == 1
+    for given in ({"edge_ratio": 1.2}, {"method": "as-published"}, {"sampling": "fibonacci"}, {"degree": 3},
+                  {"distances": True}, {"frame": "principal"}):
+        with pytest.raises(TypeError, match=f"There is no option {list(given)[0]} of convex"):
+            wscvt.convex(grain, **given)
 
 
 def test_files_for_engines_are_well_formed_and_name_their_parts(tmp_path):
@@ -85,7 +103,7 @@ def test_files_for_engines_are_well_formed_and_name_their_parts(tmp_path):
     stem = "a & b <c> \"d\" 'e'"
     subprocess.run([os.environ["WSCVT_PROGRAM"], "convex", MESHES / "sand_5658.ply", "-k", "2", "-n", "100", "-q",
                     "--density", "2650", "-o", tmp_path / (stem + ".urdf"), "-o", tmp_path / (stem + ".xml")], check=True)
-    _, report = wscvt.convex(MESHES / "sand_5658.ply", parts=2, nodes=100)
+    _, report = wscvt.convex(MESHES / "sand_5658.ply", count=2, nodes=100)
     mass = 2650 * report["mass_properties"]["volume"]
     robot = xml.etree.ElementTree.parse(tmp_path / (stem + ".urdf")).getroot()
     assert robot.get("name") == stem

@@ -18,7 +18,7 @@ def volume_of(vertices, faces):
 
 def test_fragments_fill_the_grain():
     whole = volume_of(*wscvt.read_mesh(GRAIN))
-    fragments, report = wscvt.fragment(GRAIN, fragments=9)
+    fragments, report = wscvt.fragment(GRAIN, 9)
     assert len(fragments) == 9
     volumes = [volume_of(*one) for one in fragments]
     # Rounding of thousands of terms.
@@ -33,7 +33,7 @@ def test_fragments_fill_the_grain():
 
 
 def test_volumes_and_points_steer_the_sizes():
-    _, report = wscvt.fragment(GRAIN, fragments=3, volumes=[1, 2, 3])
+    _, report = wscvt.fragment(GRAIN, count=3, volumes=[1, 2, 3])
     np.testing.assert_allclose(report["volume"] / report["volume"][0], [1, 2, 3], rtol=3e-3)
     vertices, faces = wscvt.read_mesh(GRAIN)
     _, report = wscvt.fragment(vertices, faces, 30, near=vertices[100], seed=4)
@@ -46,7 +46,7 @@ def test_volumes_and_points_steer_the_sizes():
 def test_remeshed_fragments_share_walls():
     grain = wscvt.remesh(GRAIN, 1000)
     whole = volume_of(grain.vertices, grain.faces)
-    fragments, report = wscvt.fragment(grain, fragments=5, nodes=120)
+    fragments, report = wscvt.fragment(grain, count=5, nodes=120)
     volumes = [volume_of(*one) for one in fragments]
     np.testing.assert_allclose(volumes, report["volume"], rtol=1e-10)
     assert sum(volumes) == pytest.approx(whole, rel=1e-10)
@@ -56,14 +56,14 @@ def test_remeshed_fragments_share_walls():
         if area > 0.01:
             assert corners[first] & corners[second], "triangles of the wall, to the bit"
     assert all(abs(len(vertices) - 120) < 30 for vertices, _ in fragments)
-    by_edge, _ = wscvt.fragment(grain, fragments=5, edge_length=0.3)
+    by_edge, _ = wscvt.fragment(grain, count=5, edge_length=0.3)
     assert len(by_edge[0][0]) < 120
 
 
 def test_wrong_arguments_are_refused():
-    for wrong in ({"fragments": 0}, {"fragments": 1001}, {"fragments": 2, "volumes": [1]},
+    for wrong in ({"count": 0}, {"count": 1001}, {"count": 2, "volumes": [1]},
                   {"nodes": 100, "edge_length": 1}, {"edge_length": -1}):
         with pytest.raises(wscvt.Error):
             wscvt.fragment(GRAIN, **wrong)
     with pytest.raises(wscvt.Error, match="one of them"):
-        wscvt.fragment(GRAIN, fragments=1, volumes=[1], near=[0, 0, 0])
+        wscvt.fragment(GRAIN, count=1, volumes=[1], near=[0, 0, 0])

@@ -54,7 +54,7 @@ def test_a_family_of_remeshes_has_levels(table):
             "grain,nodes,contact_error_mean [%],scan.axis_i_box,scan.area,remesh.area\r\n" + "".join(
                 f"{name},{nodes},{-50.0 / nodes},{size},10,{10 * off}\r\n"
                 for name, size in [("a", 2), ("b", 3)]), newline="")
-    levels = wscvt.sample(folder, mark=0.25)["levels"]
+    levels = wscvt.sample(folder, max_error=0.25)["levels"]
     assert levels["descriptors"]["area"]["errors"][1]["median_percent"] == pytest.approx(1.0)
     assert levels["descriptors"]["contact_error_mean"]["nodes_needed"] == 200.0
     with pytest.raises(wscvt.Error, match="n100"):

@@ -61,7 +61,7 @@ def test_tetrahedra_fill_the_remesh_and_keep_it(remesh, tmp_path):
 
 def test_a_shorter_edge_gives_more_tetrahedra(remesh):
     usual = wscvt.tetrahedra(remesh)
-    finer = wscvt.tetrahedra(remesh.vertices, remesh.faces, edge=usual["mean_edge"] / 2)
+    finer = wscvt.tetrahedra(remesh.vertices, remesh.faces, edge_length=usual["mean_edge"] / 2)
     assert len(finer["tetrahedra"]) > 2 * len(usual["tetrahedra"])
     assert finer["mean_edge"] < usual["mean_edge"]
 
@@ -70,7 +70,7 @@ def test_what_is_refused(remesh, tmp_path):
     with pytest.raises(wscvt.InputError, match=r"\.vtu"):
         wscvt.tetrahedra(remesh, output=tmp_path / "body.stl")
     with pytest.raises(wscvt.InputError, match="edge"):
-        wscvt.tetrahedra(remesh, edge=-1.0)
+        wscvt.tetrahedra(remesh, edge_length=-1.0)
     with pytest.raises(wscvt.Error):
         wscvt.tetrahedra(remesh.vertices, remesh.faces[1:])
     assert not list(tmp_path.iterdir())

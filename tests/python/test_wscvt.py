@@ -172,13 +172,19 @@ def keywords_of_the_stub(function):
     return {a.arg: ast.unparse(a.annotation) for a in node.args.args + node.args.kwonlyargs}
 
 
+def help_of_options(function):
+    listed = re.findall(r"^    (\w+): (.*(?:\n {8}.*)*)", function.__doc__.split("Options:")[1], re.M)
+    return {name: re.sub(r"\s+", " ", text) for name, text in listed}
+
+
 @pytest.mark.parametrize("function", ["remesh", "create"])
 def test_the_stub_has_all_options_with_their_types(function):
     keywords = keywords_of_the_stub(function)
-    both = {**wscvt.options(), **wscvt.options("as-published")}
+    both = {name: value for name, value in {**wscvt.options(), **wscvt.options("as-published")}.items()
+            if name in help_of_options(getattr(wscvt, function))}
     for name, value in both.items():
         if isinstance(value, str):
-            refused = [str(pytest.raises(wscvt.Error, wscvt.create, "ellipsoid",
+            refused = [str(pytest.raises(wscvt.Error, wscvt.remesh, np.zeros((4, 3)), None,
                                          **{"method": method, name: "no such"}).value)
                        for method in ("on-scan", "as-published") if name in wscvt.options(method)]
             for choice in re.findall(r"'([^']+)'", keywords[name]):
@@ -330,8 +336,8 @@ def test_create_knows_the_two_exponents_of_a_superellipsoid():
             return math.gamma(a) * math.gamma(b) / math.gamma(a + b)
         return 2 * 0.48 * polar * azimuthal * beta(polar / 2 + 1, polar) * beta(azimuthal / 2, azimuthal / 2)
     for polar, azimuthal in [(0.5, 1.0), (1.0, 0.5)]:
-        made = wscvt.create("superellipsoid", semi_axes=(1.0, 0.8, 0.6), polar_exponent=polar,
-                            azimuthal_exponent=azimuthal, nodes=1000, placement="fitted")
+        made = wscvt.create("superellipsoid", semi_axes=(1.0, 0.8, 0.6),
+                            exponents=(polar, azimuthal), nodes=1000, placement="fitted")
         assert volume(made.vertices, made.faces) == pytest.approx(exact(polar, azimuthal), rel=1e-3)
 
 
@@ -339,16 +345,19 @@ def test_clump_gives_spheres_and_their_errors():
     made = wscvt.create("ellipsoid", nodes=2000, semi_axes=(3, 2, 1))
     clump = wscvt.clump(made.vertices, made.faces, 12)
     assert clump["spheres"].shape == (12, 4) and clump["sphere_count"] == 12
-    inside = wscvt.clump(made.vertices, made.faces, spheres=12, inside=True)
+    inside = wscvt.clump(made.vertices, made.faces, count=12, inside=True)
     radii = inside["spheres"][:, 3]
     depths = -wscvt.signed_distances(inside["spheres"][:, :3], made.vertices, made.faces)
     assert (depths >= radii).all()
     assert clump["rms_percent"] < inside["rms_percent"] < 20
-    assert clump["options"]["spheres"] == 12
+    assert clump["options"]["count"] == 12
     with pytest.raises(wscvt.Error):
         wscvt.clump(made.vertices, made.faces, 0)
-    with pytest.raises(TypeError):
-        wscvt.clump(made.vertices, made.faces, radius=1)
+    # With an allowed error, a given number is the limit, as in the program.
+    small = wscvt.create("ellipsoid", nodes=300, semi_axes=(3, 2, 1))
+    loose = wscvt.clump(small, max_error=12.0)
+    assert loose["rms_percent"] <= 12.0 and loose["sphere_count"] > 3
+    assert wscvt.clump(small, 3, max_error=12.0)["sphere_count"] == 3
 
 
 def test_describe_takes_its_ball_its_cut_off_and_a_progress():
@@ -407,7 +416,7 @@ def test_create_cuts_the_series_where_told(tmp_path):
     file = tmp_path / "series.dat"
     file.write_text("0 0 10 0\n1 -1 -0.1 0.2\n1 0 0.5 0\n1 1 0.1 0.2\n"
                     "2 -2 0.3 0\n2 -1 0 0.1\n2 0 0.4 0\n2 1 0 0.1\n2 2 0.3 0\n")
-    shapes = [wscvt.create("harmonics", coefficients_file=str(file), coefficient_degree=degree,
+    shapes = [wscvt.create("harmonics", coefficients_file=str(file), degree=degree,
                            nodes=200).vertices for degree in (0, 1, 2, -1)]
     radii = np.linalg.norm(shapes[0], axis=1)
     np.testing.assert_allclose(radii, 10.0 / math.sqrt(4.0 * math.pi), rtol=1e-9)
@@ -570,8 +579,8 @@ def test_clumps_and_parts_of_a_folder_are_those_of_the_program(scan, tmp_path, m
         subprocess.run([os.environ["WSCVT_PROGRAM"], call[0], "scans", "-o", call[0], "-q", "--density", "2",
                         *call[1:]], check=True)
     for part in ("1/2", "2/2", "1/1"):
-        wscvt.clump("scans", spheres=3, output=f"clump{part[2:]}", shard=part, format="molecule", density=2.0)
-        wscvt.convex(["scans"], parts=2, nodes=100, output=f"convex{part[2:]}", shard=part, format="urdf",
+        wscvt.clump("scans", 3, output=f"clump{part[2:]}", shard=part, format="molecule", density=2.0)
+        wscvt.convex(["scans"], count=2, nodes=100, output=f"convex{part[2:]}", shard=part, format="urdf",
                      density=2.0, frame="principal")
     for kind, ending in (("clump", "molecule"), ("convex", "urdf")):
         for name in ("grains.csv", "call.json", f"a.{ending}", f"b.{ending}"):
@@ -581,7 +590,7 @@ def test_clumps_and_parts_of_a_folder_are_those_of_the_program(scan, tmp_path, m
                 assert (tmp_path / f"{kind}2" / name).read_bytes() == made, name
         assert (tmp_path / f"{kind}2" / "grains-2-of-2.csv").exists()
     with pytest.raises(wscvt.Error, match="other options"):
-        wscvt.clump("scans", spheres=4, output="clump1", format="molecule", density=2.0)
+        wscvt.clump("scans", count=4, output="clump1", format="molecule", density=2.0)
 
 
 def test_a_batch_reads_a_few_in_advance_and_ends_where_it_is_left(scan):
@@ -729,7 +738,7 @@ def test_whole_numbers_stay_whole(scan, tmp_path):
         with pytest.raises(TypeError):
             wscvt.remesh(*scan, nodes=wrong)
         with pytest.raises(TypeError):
-            wscvt.clump(*scan, spheres=wrong)
+            wscvt.clump(*scan, count=wrong)
         with pytest.raises(TypeError):
             wscvt.batch([], [wrong], output=tmp_path / "out")
     assert len(wscvt.remesh(*scan, nodes=np.uint8(60)).vertices) == 60
@@ -831,6 +840,28 @@ def test_a_repr_says_what_it_is(scan):
     assert text.startswith("<wscvt.Remesh of 60 nodes and 116 faces, of 'sand', rms distance ")
     assert text.endswith(" % of R, 1 warning>")
     assert "of ''" not in repr(wscvt.remesh(*scan, nodes=60))
+
+
+def test_help_has_the_values_of_both_methods_and_says_whose_an_option_is():
+    lines = help_of_options(wscvt.remesh)
+    for name, values in (("weighting", ("wscvt-d", "constant", "area")), ("placement", ("fitted", "sh-surface")),
+                         ("sampling", ("weighted", "fibonacci"))):
+        assert all(f'"{value}"' in lines[name] for value in values), name
+    scan, published = wscvt.options(), wscvt.options("as-published")
+    assert set(lines) == {*scan, *published}
+    for name, line in lines.items():
+        having = [method for method, own in (("on-scan", scan), ("as-published", published)) if name in own]
+        methods = re.findall(r"\((on-scan|as-published)\):", line)
+        assert methods == (having if len(having) == 1 or name in ("weighting", "placement") else []), name
+    assert lines["points"].startswith("True or False. Default: False. Ignore faces and build a star-shaped surface")
+    assert "Measure distances from remesh to scan and back, and report them." in lines["distances"]
+    # Options and defaults are those of the function.
+    created, parts = help_of_options(wscvt.create), help_of_options(wscvt.convex)
+    assert set(created) == set(lines) - {"points", "shrink_wrap", "max_repaired_area", "degree", "max_overhang", "handles",
+                                         "max_handle_loop"}
+    assert 'Default: "on-surface".' in created["placement"]
+    assert set(parts) == {"nodes", "points", "shrink_wrap", "max_repaired_area", "handles", "max_handle_loop"}
+    assert "Default: 500." in parts["nodes"]
 
 
 def test_help_has_every_option_with_its_default():

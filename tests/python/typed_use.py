@@ -57,11 +57,17 @@ def check(scan: pathlib.Path) -> None:
     values, origin, spacing = wscvt.distance_grid(result, spacing=0.1)
     wscvt.describe(scan, reference=(vertices, faces), roundness_ball=0.1)
     wscvt.create("ellipsoid", semi_axes=(1.0, 2.0, 3.0), nodes=60, placement="sh-surface")
+    wscvt.create("harmonics", coefficients_file=scan, degree=3)
+    wscvt.clump(scan, 20, max_error=3.0)["spheres"]
+    wscvt.convex(scan, 8, faces=60)
+    wscvt.convex(vertices, faces, count=8, faces=60, max_error=1.0, nodes=300, handles="keep")
+    grains: Dict[str, int] = wscvt.convex([scan], 4, output="out", shard="1/2")
+    wscvt.fragment(result, 20, edge_length=0.1)
     try:
         pass
     except wscvt.Error as error:
         assert error.code == "cancelled"
-    print(areas, report, warnings, table, made, distances, values.shape, origin, spacing * 2.0)
+    print(areas, report, warnings, table, made, grains, distances, values.shape, origin, spacing * 2.0)
 
     # Each line below is wrong in one way.
     wscvt.remesh(scan, nodse=500)  # type: ignore[call-arg]
@@ -69,6 +75,8 @@ def check(scan: pathlib.Path) -> None:
     wscvt.remesh(scan, weighting="area of cells")  # type: ignore[arg-type]
     wscvt.remesh(scan, progress=lambda fraction: True)  # type: ignore
     wscvt.batch(scan, 500, progress=progress)  # type: ignore[call-overload]
+    wscvt.convex(scan, edge_ratio=1.2)  # type: ignore[call-overload]
+    wscvt.create("ellipsoid", handles="keep")  # type: ignore[call-arg]
     wscvt.extract(vertices, "large")  # type: ignore[arg-type]
     result.node_table(frame="tilted")  # type: ignore[arg-type]
     result.vertices = vertices  # type: ignore[misc]

@@ -72,8 +72,8 @@ TEST(ClumpReport, JsonHoldsTheResult) {
   const nlohmann::json json = nlohmann::json::parse(clump_json(clump, {"grain.ply", "2026-11-26"}));
   EXPECT_EQ(json["source"], "grain.ply");
   EXPECT_EQ(json["sphere_count"], 6);
-  EXPECT_EQ(json["options"]["spheres"], 6);
-  EXPECT_EQ(json["options"]["remesh-nodes"], 150);
+  EXPECT_EQ(json["options"]["count"], 6);
+  EXPECT_EQ(json["options"]["nodes"], 150);
   const double radius = clump.equivalent_radius;
   EXPECT_EQ(json["rms_distance"], clump.rms_distance);
   EXPECT_DOUBLE_EQ(json["rms_percent"], 100.0 * clump.rms_distance / radius);

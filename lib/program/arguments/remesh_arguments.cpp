@@ -36,23 +36,6 @@ constexpr Marked marked[] = {
     {distances_option.key, 0, true},
 };
 
-/// Options without effect on a surface that is known exactly; see remesh.
-constexpr std::string_view of_a_scan[] = {
-    points_option.key,          shrink_wrap_option.key,  repaired_area_limit_option.key,
-    harmonic_degree_option.key, max_overhang_option.key, EnumerationTable<HandleAction>::key,
-    max_handle_loop_option.key,
-};
-
-/// Options of the remesh on which convex parts are cut.
-constexpr std::string_view of_parts[] = {
-    node_count_option.key,
-    points_option.key,
-    shrink_wrap_option.key,
-    repaired_area_limit_option.key,
-    EnumerationTable<HandleAction>::key,
-    max_handle_loop_option.key,
-};
-
 const Marked* mark_of(std::string_view key) {
   const Marked* found = std::find_if(std::begin(marked), std::end(marked),
                                      [&](const Marked& one) { return one.key == key; });
@@ -89,7 +72,7 @@ class AddArgument {
   }
   void operator()(const bool& value, const FlagOption& option) {
     const std::string key(option.key);
-    if (!is_wanted(key)) return;
+    if (!is_option_of(key, remeshed_)) return;
     // A flag that is on by default needs a name that turns it off.
     const std::string off = value ? ",!--no-" + key : "";
     app_.add_flag_function(
@@ -105,7 +88,7 @@ class AddArgument {
  private:
   void add(std::string_view name, const std::string& help, const std::string& type) {
     const std::string key(name);
-    if (!is_wanted(key)) return;
+    if (!is_option_of(key, remeshed_)) return;
     CLI::Option* known = app_.get_option_no_throw("--" + key);
     if (known != nullptr) {
       // Both methods have the option, each with its own values.
@@ -126,13 +109,6 @@ class AddArgument {
   /// Returns the help with the method after the first paragraph, which --help shows.
   std::string with_method(std::string help) const {
     return help.insert(std::min(help.find('\n'), help.size()), of_method_);
-  }
-  bool is_wanted(std::string_view key) const {
-    const auto is_in = [&](const auto& keys) {
-      return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
-    };
-    return remeshed_ == Remeshed::Parts ? is_in(of_parts)
-                                        : remeshed_ == Remeshed::Scan || !is_in(of_a_scan);
   }
   static std::string group_of(std::string_view key) {
     const Marked* mark = mark_of(key);

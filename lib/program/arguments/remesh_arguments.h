@@ -7,13 +7,9 @@
 
 namespace wscvt::program {
 
-/// Use of the remesh. Some options have no effect on a surface that is known exactly. Convex parts
-/// need only the number of nodes and the options of the scan's repair.
-enum class Remeshed { Scan, Surface, Parts };
-
-/// Adds an argument for every option of both methods, under the option's key. Users type options as
-/// reports print them. Parsing changes `options`, which must outlive `app`. Their values before are
-/// the defaults of their method. A call with an option of the other method is
+/// Adds an argument for every option of both methods (is_option_of), under the option's key. Users
+/// type options as reports print them. Parsing changes `options`, which must outlive `app`. Their
+/// values before are the defaults of their method. A call with an option of the other method is
 /// refused, with the option to use instead. Help texts are made from the options' tables and
 /// ranges.
 void add_remesh_arguments(CLI::App& app, RemeshOptions& options,

@@ -38,12 +38,10 @@ struct AddClumpOption {
 
   template <class Number>
   void operator()(Number& value, const NumberOption<Number>& option) {
-    // As of the other commands: how many are made, and the nodes of a remesh.
-    const std::string name = option.key == sphere_count_option.key ? "-k,--count"
-                             : option.key == compared_nodes_option.key
-                                 ? "-n,--nodes"
-                                 : "--" + std::string(option.key);
-    add_number(app, name, value, option);
+    const std::string letter = option.key == sphere_count_option.key     ? "-k,"
+                               : option.key == compared_nodes_option.key ? "-n,"
+                                                                         : "";
+    add_number(app, letter + "--" + std::string(option.key), value, option);
   }
   void operator()(ClumpError& value) {
     add_choice(app, "--" + std::string(EnumerationTable<ClumpError>::key), value);

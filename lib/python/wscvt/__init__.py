@@ -17,6 +17,7 @@ import itertools
 import numbers
 import os
 import pathlib
+import re
 import tempfile
 import textwrap
 import threading
@@ -31,6 +32,31 @@ __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "ba
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
            "fabric", "fragment", "grow", "options", "read_attributes", "read_mesh", "read_table", "remesh",
            "sample", "segment", "signed_distances", "templates", "tetrahedra", "write_mesh"]
+
+
+def _call(function, /, *arguments, **options):
+    """Calls a function of _wscvt. pybind11's own message about a wrong argument prints whole arrays."""
+    name = function.__name__.strip("_").replace("_files", "")
+    signature = function.__doc__.partition("\n")[0]
+    known = re.findall(r"(\w+): ", signature)
+    for option in options:
+        if option not in known and "**kwargs" not in signature:
+            raise TypeError(f"There is no option {option} of {name}. help(wscvt.{name}) lists the options.")
+    try:
+        return function(*arguments, **options)
+    except TypeError as error:
+        if "incompatible function arguments" not in str(error):
+            raise
+    types = ", ".join(f"{argument} is {type(value).__name__}"
+                      for argument, value in [*zip(known, arguments), *options.items()])
+    raise TypeError(f"An argument of {name} has a wrong type: {types}. help(wscvt.{name}) says what they are.")
+
+
+def _number_second(faces, number):
+    """Returns the faces and a number: f("scan.ply", 500) means f("scan.ply", None, 500)."""
+    if isinstance(faces, numbers.Integral) and number is None:
+        return None, faces
+    return faces, number
 
 
 def _arrays(mesh, faces=None):
@@ -66,24 +92,19 @@ def remesh(vertices, faces=None, nodes=None, **options):
     "cancelled"): InputError, a ValueError, for unusable input; FileError, an OSError, for a file;
     MissingFileError, a FileNotFoundError. Raises TypeError for unknown options.
     """
-    # remesh("scan.ply", 500) and remesh(mesh, 500)
-    if isinstance(faces, numbers.Integral) and nodes is None:
-        faces, nodes = None, faces
+    faces, nodes = _number_second(faces, nodes)
     if nodes is not None:
         options["nodes"] = nodes
     if isinstance(vertices, (str, os.PathLike)):
         options.setdefault("source", os.path.basename(vertices))
-    return _wscvt.remesh(*_arrays(vertices, faces), **options)
+    return _call(_wscvt.remesh, *_arrays(vertices, faces), **options)
 
 
-def _with_options(text):
-    """Returns a text of help with a line for each option."""
+def _with_options(function):
+    """Adds a line for each option of its remesh to the help of a function."""
     lines = [textwrap.fill(f"{name}: {line}", 92, initial_indent="    ", subsequent_indent=" " * 8)
-             for name, line in _wscvt._option_help().items()]
-    return text.rstrip() + "\n\n    Options:\n\n" + "\n".join(lines) + "\n"
-
-
-remesh.__doc__ = _with_options(remesh.__doc__)
+             for name, line in _wscvt._option_help(function.__name__).items()]
+    function.__doc__ = function.__doc__.rstrip() + "\n\n    Options:\n\n" + "\n".join(lines) + "\n"
 
 
 def create(surface, **options):
@@ -93,18 +114,18 @@ def create(surface, **options):
 
     surface: "ellipsoid", "superellipsoid" or "harmonics".
     semi_axes: three lengths > 0; (1, 1, 1) by default.
-    polar_exponent: for a superellipsoid, from pole to pole, 0.1 to 2. 1 is an ellipsoid, the
-        default.
-    azimuthal_exponent: like polar_exponent, around the equator.
+    exponents: two, of a superellipsoid, from pole to pole and around the equator, 0.1 to 2. (1, 1)
+        is an ellipsoid, the default.
     coefficients_file: for harmonics, a path that ends in .dat, .sh or .json.
-    coefficient_degree: degree at which the series is cut; -1 keeps all.
+    degree: at which the series of a .dat or .sh file is cut; -1, the default, keeps all.
     threads: as for remesh.
     progress: as for remesh.
-    All other options have the names and values of options(). By default, nodes are on the surface.
+    All other options are those of remesh, without those of a scan. They are listed at the end. By
+        default, nodes are on the surface.
 
     Raises Error, and TypeError for unknown options.
     """
-    return _wscvt.create(surface, **options)
+    return _call(_wscvt.create, surface, **options)
 
 
 def batch(scans, nodes=None, *, output=None, threads=0, **options):
@@ -160,7 +181,7 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
             options["nodes"] = nodes
         if isinstance(options.get("voxel_size"), numbers.Real):
             options["voxel_size"] = (options["voxel_size"],) * 3
-        return _wscvt._batch(_inputs(scans), output, threads=threads, **options)
+        return _call(_wscvt._batch, _inputs(scans), output, threads=threads, **options)
     return _batch(scans, nodes, threads, options)
 
 
@@ -241,7 +262,7 @@ def segment(scan, voxel_size=1.0, **options):
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
-    return _wscvt.segment(scan, voxel_size, **options)
+    return _call(_wscvt.segment, scan, voxel_size, **options)
 
 
 def extract(labels, voxel_size=1.0, **options):
@@ -271,7 +292,7 @@ def extract(labels, voxel_size=1.0, **options):
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
-    return _wscvt.extract(labels, voxel_size, **options)
+    return _call(_wscvt.extract, labels, voxel_size, **options)
 
 
 def fabric(labels, voxel_size=1.0, *, scan=None, **options):
@@ -296,21 +317,24 @@ def fabric(labels, voxel_size=1.0, *, scan=None, **options):
     """
     if isinstance(voxel_size, numbers.Real):
         voxel_size = (voxel_size,) * 3
-    return _wscvt.fabric(labels, voxel_size, scan=scan, **options)
+    return _call(_wscvt.fabric, labels, voxel_size, scan=scan, **options)
 
 
-def clump(vertices, faces=None, spheres=20, *, output=None, **options):
+def clump(vertices, faces=None, count=None, *, output=None, **options):
     """Fits overlapping spheres to a grain, for engines with clumps.
 
-    clump("scan.ply", spheres=50), clump(mesh), clump(vertices, faces)
+    clump("scan.ply", 50), clump(mesh, count=50), clump(vertices, faces, 50)
 
-    spheres: their number, 1 to 1000.
-    max_error: allowed error in %, instead of a number. max_spheres then limits the number.
+    vertices, faces: as for remesh.
+    count: number of spheres, 1 to 1000. 20 by default; with max_error at most this many, 200 by
+        default.
+    max_error: allowed error in %: the fewest spheres that meet it. 0, the default: count spheres.
     error_measure: "distance" (rms, in % of the equivalent radius), "volume" (not shared), "inertia" or
         "contact" (first contact, in % of the equivalent radius).
     smallest_radius: of a sphere, in % of the equivalent radius.
     inside: keep all spheres inside the scan.
-    remesh_nodes: nodes of a remesh whose error of first contact is compared; 0: no comparison.
+    nodes: of a remesh whose error of first contact is compared. 0, the default: no comparison.
+    points, shrink_wrap, max_repaired_area: as for remesh.
     threads: as for remesh.
     progress: as for remesh.
 
@@ -322,9 +346,12 @@ def clump(vertices, faces=None, spheres=20, *, output=None, **options):
     The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
     and radius. Raises Error, and TypeError for unknown options.
     """
+    faces, count = _number_second(faces, count)
+    if count is not None:
+        options["count"] = count
     if output is not None:
-        return _wscvt._clump_files(_inputs(vertices), output, spheres, **options)
-    return _wscvt.clump(*_arrays(vertices, faces), spheres, **options)
+        return _call(_wscvt._clump_files, _inputs(vertices), output, **options)
+    return _call(_wscvt.clump, *_arrays(vertices, faces), **options)
 
 
 def describe(vertices, faces=None, reference=None, **options):
@@ -345,7 +372,7 @@ def describe(vertices, faces=None, reference=None, **options):
     if reference is not None and not isinstance(reference, tuple):
         mesh = _arrays(reference)
         reference = reference if mesh[1] is None else mesh
-    return _wscvt.describe(*_arrays(vertices, faces), reference, **options)
+    return _call(_wscvt.describe, *_arrays(vertices, faces), reference, **options)
 
 
 def signed_distances(points, vertices, faces=None, **options):
@@ -354,7 +381,7 @@ def signed_distances(points, vertices, faces=None, **options):
     vertices, faces: as for remesh. threads, progress: as for remesh. Raises Error, also for points
     that are not finite.
     """
-    return _wscvt.signed_distances(points, *_arrays(vertices, faces), **options)
+    return _call(_wscvt.signed_distances, points, *_arrays(vertices, faces), **options)
 
 
 def distance_grid(vertices, faces=None, spacing=0.0, **options):
@@ -368,7 +395,7 @@ def distance_grid(vertices, faces=None, spacing=0.0, **options):
     Returns (values, origin, spacing): values (nx, ny, nz), length, negative inside; values[i, j, k]
     is at origin + spacing * (i, j, k). Raises Error, also for more than 20 million points.
     """
-    return _wscvt.distance_grid(*_arrays(vertices, faces), spacing, **options)
+    return _call(_wscvt.distance_grid, *_arrays(vertices, faces), spacing, **options)
 
 
 def _table_parts(table):
@@ -441,11 +468,11 @@ def sample(table, other=None, *, report=(), density=None, **options):
     other: a second sample to compare with.
     report: path or paths of reports to write, ending in .html, .json or .csv.
     diameter: "sieve", "equivalent-diameter", "feret-max" or "feret-min".
-    of: "scan" or "remesh".
+    describe: "scan" (default) or "remesh", the mesh whose statistics are computed.
     density: mass / volume, or a pair for two samples. By default the table's column "mass" or
         "density", else 1.
-    mark: error in %, for "levels". They list the number of nodes above which 90 % of the grains
-        have a smaller error. 1 by default.
+    max_error: in %, for "levels". They list the number of nodes from which 90 % of the grains have
+        a smaller error. 1 by default.
     seed, repetitions: for the 95 % intervals and p; 1 and 1000 by default.
     threads: as for remesh.
     progress: as for remesh.
@@ -464,42 +491,56 @@ def sample(table, other=None, *, report=(), density=None, **options):
     if len(densities) > 1 and len(densities) != len(samples):
         raise TypeError(f"{len(densities)} densities are given for {len(samples)} samples. Give one "
                         "density, or one per sample.")
-    return _wscvt.sample(samples, [str(path) for path in reports], density=densities, **options)
+    return _call(_wscvt.sample, samples, [str(path) for path in reports], density=densities, **options)
 
 
-def convex(vertices, faces=None, *, output=None, **options):
-    """Divides a grain into at most `parts` convex parts, for physics engines.
+def convex(vertices, triangles=None, /, count=None, *, output=None, **options):
+    """Divides a grain into at most `count` convex parts, for physics engines.
 
-    vertices, faces: as for remesh. The cuts are chosen on a remesh of 500 nodes. The parts are
-        hulls of pieces of the grain itself. They contain the whole grain, unless `part_faces`
-        limits them.
-    parts: 1 to 1000; 8 by default.
-    part_faces: max. number of faces of a part; 255 by default.
-    tolerance: distance up to which a hull needs no cut, % of the equivalent radius; 0.5 by default.
-    threads, progress and all options of remesh: as for remesh.
+    convex("scan.ply", 4), convex(mesh, count=4, faces=60), convex(vertices, triangles, 4)
+
+    vertices, triangles: the grain, as vertices and faces of remesh; not by name. The parts are
+        hulls of pieces of the grain, scaled together so that they keep the grain's volume.
+    count: max. number of parts, 1 to 1000; 8 by default.
+    faces: max. number of triangles of a part, 255 by default.
+    max_error: fewer parts if no hull is farther than this from the grain, % of the equivalent
+        radius; 0.5 by default.
+    threads, progress: as for remesh.
+    All other options are of the grain's repair and of the remesh on which the cuts are chosen. They
+        are listed at the end.
     output: folder. Then `vertices` is one or more files, folders, patterns, or "@FILE" with one of
         these per line, and the files are those of "wscvt convex", with grains.csv: see batch. format:
         ending of the files, "obj" by default; shard, frame, size, scale: as for batch; density: for
         mass and inertia. Returns a dictionary with the numbers of "grains" and of those that "failed".
 
     Returns a list with a pair (vertices, faces) for each part, and a dictionary: distances from the
-    grain, volume, and the grain's mass properties at unit density. Raises Error.
+    grain, volume, and the grain's mass properties at unit density. Raises Error, and TypeError for
+    unknown options.
     """
+    triangles, count = _number_second(triangles, count)
+    if count is not None:
+        options["count"] = count
     if output is not None:
-        return _wscvt._convex_files(_inputs(vertices), output, **options)
-    return _wscvt.convex(*_arrays(vertices, faces), **options)
+        return _call(_wscvt._convex_files, _inputs(vertices), output, **options)
+    return _call(_wscvt.convex, *_arrays(vertices, triangles), **options)
 
 
-def fragment(vertices, faces=None, fragments=20, *, near=None, **options):
-    """Divides a grain into exactly `fragments` closed fragments that fill it, for breakage.
+for _function in (remesh, create, convex):
+    _with_options(_function)
+
+
+def fragment(vertices, faces=None, count=None, *, near=None, **options):
+    """Divides a grain into exactly `count` closed fragments that fill it, for breakage.
+
+    fragment("grain.ply", 50), fragment(mesh, count=50), fragment(vertices, faces, 50)
 
     vertices, faces: as for remesh.
-    fragments: 1 to 1000; 20 by default.
+    count: number of fragments, 1 to 1000; 20 by default.
     near: points (n, 3) near which fragments are smaller, such as contacts.
     volumes: relative volumes, one per fragment; about equal by default. Not together with near.
     seed: the same seed gives the same fragments; 1 by default.
     nodes: about so many of each fragment, or edge_length: remeshes the fragments with even edges and
-    common walls. By default they keep all points of the grain's surface.
+        common walls. By default they keep all points of the grain's surface.
     threads, progress: as for remesh.
 
     Returns a list with a pair (vertices, faces) for each fragment, and a dictionary:
@@ -509,18 +550,21 @@ def fragment(vertices, faces=None, fragments=20, *, near=None, **options):
     moved_pieces and moved_percent (of the volume) say what joined a neighbour because a cell had
     several pieces. Two neighbours have the same triangles on their wall. Raises Error.
     """
+    faces, count = _number_second(faces, count)
+    if count is not None:
+        options["count"] = count
     if near is not None:
-        near = numpy.atleast_2d(numpy.asarray(near, dtype=float))
-    return _wscvt.fragment(*_arrays(vertices, faces), fragments, near=near, **options)
+        options["near"] = numpy.atleast_2d(numpy.asarray(near, dtype=float))
+    return _call(_wscvt.fragment, *_arrays(vertices, faces), **options)
 
 
-def tetrahedra(vertices, faces=None, *, edge=0.0, output=None, **options):
+def tetrahedra(vertices, faces=None, **options):
     """Fills a closed mesh with tetrahedra for finite elements, by Gmsh, and returns a dictionary.
 
     wscvt.tetrahedra(wscvt.remesh("scan.ply", 1000), output="body.inp")
 
     vertices, faces: a closed mesh or a Remesh, as for remesh. Its points and triangles are kept.
-    edge: the longest wanted edge inside, in the mesh's unit. 0, the default: as on the surface.
+    edge_length: the longest wanted edge inside, in the mesh's unit. 0, the default: as on the surface.
     output: also write this file: .vtu (ParaView), .msh (Gmsh) or .inp (Abaqus, CalculiX).
     threads, progress: as for remesh.
 
@@ -529,7 +573,7 @@ def tetrahedra(vertices, faces=None, *, edge=0.0, output=None, **options):
     largest_dihedral_degrees: angles between faces of a tetrahedron; mean_edge. Raises Error if Gmsh
     is not there or cannot fill the mesh.
     """
-    return _wscvt.tetrahedra(*_arrays(vertices, faces), edge=edge, output=output, **options)
+    return _call(_wscvt.tetrahedra, *_arrays(vertices, faces), **options)
 
 
 def read_mesh(path):
@@ -585,8 +629,8 @@ def _matrix(descriptors):
     return numpy.asarray(descriptors, dtype=float)
 
 
-def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
-    """Chooses k grains with weights that represent a sample: (table, distances).
+def templates(descriptors, masses, count=20, *, seed=1, threads=0, progress=None):
+    """Chooses `count` grains with weights that represent a sample: (table, distances).
 
     descriptors: an array (n, d), or a structured array with a field per descriptor. masses: n
     numbers. table is a structured array with the fields grain, weight_by_number and weight_by_mass.
@@ -594,7 +638,7 @@ def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
     the sample (by_number, by_mass), the same for random grains (random_by_number, random_by_mass),
     and stands_for, for each grain the nearest row of the table.
     """
-    parts = _wscvt.templates_of(_matrix(descriptors), list(masses), k, seed, threads, progress)
+    parts = _wscvt.templates_of(_matrix(descriptors), list(masses), count, seed, threads, progress)
     table = numpy.empty(len(parts["grains"]), [("grain", "i8"), ("weight_by_number", "f8"),
                                                ("weight_by_mass", "f8")])
     table["grain"] = parts["grains"]
@@ -605,11 +649,11 @@ def templates(descriptors, masses, k=20, *, seed=1, threads=0, progress=None):
                    "random_by_mass": parts["random_by_mass"], "stands_for": parts["stands_for"]}
 
 
-def grow(grains, n, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progress=None):
+def grow(grains, count, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progress=None):
     """Makes virtual grains with the statistics of real grains: (meshes, table).
 
     grains: 8 or more meshes, as for remesh, or arrays of SH coefficients. meshes is a list
-    of n pairs (vertices, faces) in their principal frames. table is a structured array with the
+    of `count` pairs (vertices, faces) in their principal frames. table is a structured array with the
     fields equivalent_diameter, base_grain, nearest_grain, nearest_distance (rms of the radius at
     radius 1), collage and redraws. Grains are numbered from 0.
     """
@@ -621,7 +665,7 @@ def grow(grains, n, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progre
             real.append(grain)
         else:
             real.append(tuple(_arrays(grain)))
-    rows = _wscvt.grow_of(real, n, nodes, donors, degree, seed, threads, progress)
+    rows = _wscvt.grow_of(real, count, nodes, donors, degree, seed, threads, progress)
     table = numpy.array([row[2:] for row in rows],
                         [("equivalent_diameter", "f8"), ("base_grain", "i8"),
                          ("nearest_grain", "i8"), ("nearest_distance", "f8"), ("collage", "f8"),

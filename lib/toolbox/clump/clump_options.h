@@ -48,7 +48,7 @@ struct ClumpOptions {
   double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
 };
 
-inline constexpr NumberOption<int> sphere_count_option = {"spheres",  "number of spheres", 1, 1000,
+inline constexpr NumberOption<int> sphere_count_option = {"count",    "number of spheres", 1, 1000,
                                                           Ends::Both, "of the clump"};
 inline constexpr NumberOption<double> clump_error_option = {
     "max-error",
@@ -69,7 +69,7 @@ inline constexpr NumberOption<double> smallest_radius_option = {
 inline constexpr FlagOption inside_option = {"inside", "keep every sphere inside",
                                              "the scan; it touches the scan from within"};
 inline constexpr NumberOption<int> compared_nodes_option = {
-    "remesh-nodes",
+    "nodes",
     "number of nodes of a remesh",
     0,
     100000,

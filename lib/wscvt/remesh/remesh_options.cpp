@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/remesh/remesh_options.h"
 
+#include <algorithm>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -11,6 +13,23 @@
 namespace wscvt {
 
 namespace {
+
+/// Options without effect on a surface that is known exactly; see remesh.
+constexpr std::string_view of_a_scan[] = {
+    points_option.key,          shrink_wrap_option.key,  repaired_area_limit_option.key,
+    harmonic_degree_option.key, max_overhang_option.key, EnumerationTable<HandleAction>::key,
+    max_handle_loop_option.key,
+};
+
+/// Options of the remesh on which convex parts are cut.
+constexpr std::string_view of_parts[] = {
+    node_count_option.key,
+    points_option.key,
+    shrink_wrap_option.key,
+    repaired_area_limit_option.key,
+    EnumerationTable<HandleAction>::key,
+    max_handle_loop_option.key,
+};
 
 /// Checks every option by itself.
 struct CheckOption {
@@ -26,6 +45,14 @@ struct CheckOption {
 };
 
 }  // namespace
+
+bool is_option_of(std::string_view key, Remeshed remeshed) {
+  const auto is_in = [&](const auto& keys) {
+    return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+  };
+  if (remeshed == Remeshed::Parts) return is_in(of_parts);
+  return remeshed == Remeshed::Scan || !is_in(of_a_scan);
+}
 
 void check_options(const RemeshOptions& options) {
   CheckOption check;

@@ -237,6 +237,13 @@ void for_each_option(Options& options, Visitor& visitor) {
   for_each_common_option(options, visitor);
 }
 
+/// Use of a remesh. Some options have no effect on a surface that is known exactly. Convex parts
+/// need only the number of nodes and the options of the scan's repair.
+enum class Remeshed { Scan, Surface, Parts };
+
+/// Whether users may set the option of this key.
+bool is_option_of(std::string_view key, Remeshed remeshed);
+
 /// Throws Error(InvalidInput), with the range, for options out of range or at odds with each other.
 void check_options(const RemeshOptions& options);
 
