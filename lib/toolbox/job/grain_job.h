@@ -61,6 +61,11 @@ struct GrainJob {
 /// Returns the folders of the levels; if there are no levels, the folder of the job.
 std::vector<JobFolder> folders_of(const GrainJob& job);
 
+/// Throws Error(InvalidInput) if a file of a grain of the job would replace one of `scans`, of
+/// which the grains are made. For a source whose grains have no files of their own.
+void require_scans_kept(const GrainJob& job, const GrainSource& grains,
+                        const std::vector<std::string>& scans);
+
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.
