@@ -12,6 +12,7 @@
 #include "program_run.h"
 #include "support/flat_json.h"
 #include "support/made_volume.h"
+#include "support/test_shapes.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -162,6 +163,38 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
   EXPECT_NE(alone.exit_code, 0);
   EXPECT_NE(alone.errors.find("--edge-length is only for --conforming"), std::string::npos)
       << alone.errors;
+}
+
+TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
+  write_sample();
+  IndexedMesh mesh = test::sphere(2);
+  for (const double x : {4.0, 8.0}) {
+    mesh = test::joined(mesh, test::moved(test::sphere(2), 1.0, {x, 0, 0}));
+  }
+  write_mesh(mesh, path("bodies.obj"));
+  ASSERT_EQ(run("extract sample.nrrd labels -q").exit_code, 0);
+  ASSERT_EQ(run("extract bodies.obj bodies -q").exit_code, 0);
+  const std::string label = content("labels/3.ply");
+  const std::string body = content("bodies/3.ply");
+  const std::string table = content("labels/labels.csv");
+  for (const std::string call :
+       {"extract bodies.obj labels", "extract sample.nrrd bodies",
+        "extract sample.nrrd bodies --conforming", "batch bodies.obj -o labels --parts -n 60",
+        "batch sample.nrrd -o bodies -n 60", "batch sample.nrrd -o labels -n 60 --format off",
+        "batch sample.nrrd -o labels -n 60,80"}) {
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.exit_code, 2) << call << outcome.errors;
+    EXPECT_NE(outcome.errors.find("has the results of another command ("), std::string::npos)
+        << call << outcome.errors;
+  }
+  EXPECT_EQ(content("labels/3.ply"), label);
+  EXPECT_EQ(content("bodies/3.ply"), body);
+  EXPECT_EQ(content("labels/labels.csv"), table);
+  for (const char* file : {"labels/bodies.csv", "labels/call.json", "bodies/labels.csv"}) {
+    EXPECT_FALSE(exists(file)) << file;
+  }
+  // Other files beside them.
+  EXPECT_EQ(run("clump sample.nrrd -k 2 -o labels -q").exit_code, 0);
 }
 
 TEST_F(Extract, LengthsOfTwoUnitsAreInNoTable) {

@@ -59,8 +59,15 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const auto in_folder = [&](const std::string& name) {
     return (fs::path(arguments.folder) / name).string();
   };
-  require_no_job(arguments.folder);
-  require_own_table(arguments.folder, "grains.csv", conforming_csv(ConformingGrains(), {}, {}));
+  std::vector<std::string> files;
+  for (const Label label : labels) {
+    files.push_back(std::to_string(label) + "." + arguments.job.format);
+  }
+  checked([&] {
+    require_no_job(arguments.folder);
+    require_own_table(arguments.folder, "grains.csv", conforming_csv(ConformingGrains(), {}, {}));
+    require_no_other_results(arguments.folder, "labels", {files.begin(), files.end()});
+  });
   check_writable(in_folder("grains.csv"));
   const OlderFiles older(arguments.folder, {"labels.csv", "grains.csv"});
   ConformingOptions options = arguments.walls;
@@ -68,10 +75,8 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const ConformingGrains result =
       conform_labels(grains.voxels(), labels, options, work.execution());
   const std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
-  std::vector<std::string> files;
   for (std::size_t g = 0; g < labels.size(); ++g) {
-    files.push_back(std::to_string(labels[g]) + "." + arguments.job.format);
-    work.write(in_folder(files.back()),
+    work.write(in_folder(files[g]),
                [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
   }
   const auto write = [&](const char* name, const std::string& text) {

@@ -75,6 +75,19 @@ void check_files(const JobFolder& folder, const GrainJob& job,
   }
 }
 
+/// Refuses a folder where results of another command, which keeps no call, would be replaced.
+void check_results(const JobFolder& folder, const GrainJob& job, const GrainSource& source,
+                   const std::vector<std::string>& grains) {
+  if (keeps_call(job.folder)) return;
+  std::set<std::string> made;
+  if (job.has_census && source.volumes() > 0) made.insert("labels.csv");
+  if (job.levels.empty()) {
+    for (const std::string& grain : grains) made.insert(folder.name_of(grain));
+  }
+  require_no_other_results(job.folder,
+                           job.last_table.empty() ? job.tables.front().name : job.last_table, made);
+}
+
 /// Whether the folder has tables of this part, with or without levels.
 bool is_begun(const JobFolder& folder, const std::string& table_name) {
   std::error_code ignored;
@@ -375,6 +388,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   std::vector<std::string> names(grains.size());
   for (std::size_t k = 0; k < names.size(); ++k) names[k] = grains.name(k);
   for (const JobFolder& folder : folders) check_files(folder, job, names);
+  check_results(folders.front(), job, grains, names);
   std::error_code ignored;  // the first write into the folder reports it
   fs::create_directories(whole.path(), ignored);
   const PartRows parts(job, folders);

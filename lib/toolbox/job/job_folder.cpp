@@ -75,6 +75,32 @@ void require_no_job(const std::string& folder) {
   if (!format.empty()) refuse_folder(folder, format);
 }
 
+bool keeps_call(const std::string& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "call.json" || (name.rfind("call-", 0) == 0 && name.find("-of-") != name.npos)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void require_no_other_results(const std::string& folder, const std::string& own,
+                              const std::set<std::string>& made) {
+  for (const std::string table : {"labels", "bodies", "fragments", "grown", "templates"}) {
+    if (table == own) continue;
+    std::ifstream file(fs::path(folder) / (table + ".csv"), std::ios::binary);
+    if (!file) continue;
+    const std::vector<std::string> files = files_named_in(file);
+    const bool is_replaced = made.count(table + ".csv") > 0 ||
+                             std::any_of(files.begin(), files.end(), [&](const std::string& name) {
+                               return made.count(name) > 0;
+                             });
+    if (is_replaced) refuse_folder(folder, table + ".csv");
+  }
+}
+
 void require_own_table(const std::string& folder, const std::string& table,
                        const std::string& header) {
   std::ifstream file(fs::path(folder) / table, std::ios::binary);
