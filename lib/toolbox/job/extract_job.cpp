@@ -239,7 +239,7 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
   job.call = json_document(call);
   job.tables = {{"grains", header}};
   if (options.describe) job.tables.push_back({"shape", shape_header(measures_of(options))});
-  job.last_table = options.table;
+  job.last_table = {options.table, of_labels ? header : body_header()};
   job.takes_refused = true;
   job.is_kept = false;
   job.make = [options](GrainAtWork& grain) {

@@ -78,14 +78,15 @@ void check_files(const JobFolder& folder, const GrainJob& job,
 /// Refuses a folder where results of another command, which keeps no call, would be replaced.
 void check_results(const JobFolder& folder, const GrainJob& job, const GrainSource& source,
                    const std::vector<std::string>& grains) {
-  if (keeps_call(job.folder)) return;
+  const JobTable& last = job.last_table.name.empty() ? job.tables.front() : job.last_table;
+  if (!job.last_table.name.empty()) require_own_table(job.folder, last.name + ".csv", last.header);
+  if (!kept_call(job.folder).empty()) return;
   std::set<std::string> made;
   if (job.has_census && source.volumes() > 0) made.insert("labels.csv");
   if (job.levels.empty()) {
     for (const std::string& grain : grains) made.insert(folder.name_of(grain));
   }
-  require_no_other_results(job.folder,
-                           job.last_table.empty() ? job.tables.front().name : job.last_table, made);
+  require_no_other_results(job.folder, last.name, made);
 }
 
 /// Whether the folder has tables of this part, with or without levels.

@@ -42,7 +42,7 @@ struct GrainJob {
   std::vector<std::string> levels;
   std::string call;              ///< options that must be equal when the job is started again; JSON
   std::vector<JobTable> tables;  ///< of each level; the first is "grains"
-  std::string last_table;        ///< that the caller makes of the first; empty: none
+  JobTable last_table = {};      ///< that the caller makes of the first; without a name: none
   bool has_census = false;       ///< writes GrainSource::census to labels.csv
   bool reads_pictures = false;   ///< see GrainSource::read
   bool takes_refused = false;    ///< makes also what is refused, see GrainScan

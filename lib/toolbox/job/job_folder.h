@@ -52,8 +52,12 @@ std::string format_of_call(const std::string& text);
 /// other files there.
 void require_no_job(const std::string& folder);
 
-/// Whether a job, or a part of one, keeps its options in this folder.
-bool keeps_call(const std::string& folder);
+/// Returns the options that a job, or a part of one, keeps in this folder; empty: none.
+std::string kept_call(const std::string& folder);
+
+/// Whether a job that keeps its call would take the file for that of a grain in its table: a mesh,
+/// a clump, parts, or a table or grid of nodes.
+bool is_kept_by_job(const std::string& file);
 
 /// Throws Error(InvalidInput) if one of the files `made` is a table of results of another command
 /// in the folder, such as "labels.csv", or is named in one. For commands that keep no call. `own`:
