@@ -259,6 +259,20 @@ TEST_F(Extract, CountsWhatBecameOfTheLabels) {
       << outcome.output;
 }
 
+TEST_F(Extract, CountsLabelsInEachCommand) {
+  write_sample();
+  const std::string line = "5 labels: 3 taken, 1 at the border, 1 too small\n";
+  for (const std::string call :
+       {"extract sample.nrrd walls --conforming", "clump sample.nrrd -k 2 -o clumps",
+        "batch sample.nrrd -o out -n 60 --describe none"}) {
+    const Outcome outcome = run(call);
+    EXPECT_NE(outcome.output.find(line), std::string::npos) << call << outcome.output;
+  }
+  const std::string json = content("out/summary.json");
+  EXPECT_NE(json.find("\"at the border\": 1"), std::string::npos) << json;
+  EXPECT_NE(content("out/summary.html").find("1 at the border, 1 too small."), std::string::npos);
+}
+
 TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
   volume_.fill_box(3, {10, 10, 10}, {20, 20, 20});
   test::MadeVolume two({70, 60, 120});

@@ -12,6 +12,7 @@
 #include "program/call/exit_code.h"
 #include "program/terminal/terminal.h"
 #include "program/terminal/work.h"
+#include "toolbox/job/extract_job.h"
 #include "toolbox/job/label_source.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/volume/open_volume.h"
@@ -155,7 +156,10 @@ std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
     if (is_volume(path)) {
       std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
       print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
-      inputs->add(std::make_unique<LabelSource>(path, std::move(grains)));
+      auto labels = std::make_unique<LabelSource>(path, std::move(grains));
+      const std::string census = labels->census([](const std::string&) { return MadeGrain(); });
+      print({census_line(census_states(census), "labels")}, quiet);
+      inputs->add(std::move(labels));
     } else if (options.parts) {
       std::unique_ptr<MeshGrains> bodies = with_progress(
           quiet, [&](const Execution& one) { return std::make_unique<MeshGrains>(path, one); });

@@ -93,6 +93,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
   std::vector<std::string> lines = conforming_lines(result);
+  lines.insert(lines.begin(), census_line(census_states(rows), "labels"));
   for (std::string& line : older.remove_but(files, arguments.input))
     lines.push_back(std::move(line));
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
