@@ -65,7 +65,7 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_EQ(
       outcome.errors.rfind("Warning: 1 label of 3 is in several parts. Only the largest part of "
                            "each label is used. The others, 0.512 % of all voxels, are left out. "
-                           "To make each part a grain: wscvt extract sample.nrrd out --parts.",
+                           "To make each part a grain, use --parts, and another output folder.",
                            0),
       0U)
       << outcome.errors;
@@ -257,6 +257,17 @@ TEST_F(Extract, CountsWhatBecameOfTheLabels) {
       outcome.output.find("6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n"),
       std::string::npos)
       << outcome.output;
+}
+
+TEST_F(Extract, NamesALabelThatIsTooSmallForWalls) {
+  volume_.fill_ball(3, {20, 20, 30}, 8.0);
+  volume_.fill_box(7, {40, 40, 40}, {41, 41, 41});
+  test::write_bytes(folder_ / "sample.nrrd", test::nrrd(volume_, ""));
+  EXPECT_NE(run("extract sample.nrrd out --conforming --smallest 1")
+                .errors.find("Label 7 has only 1 voxel in its largest piece. "),
+            std::string::npos)
+      << content("stderr.txt");
+  EXPECT_EQ(run("extract sample.nrrd out --conforming --smallest 64").exit_code, 0);
 }
 
 TEST_F(Extract, CountsLabelsInEachCommand) {

@@ -128,7 +128,9 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, double density, int threads, bool quiet) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
-  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  const std::unique_ptr<GrainSource> inputs = open_inputs(
+      files, {}, arguments.shard, quiet,
+      "call wscvt extract VOLUME OUT --parts first, and give OUT instead of the volume");
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
@@ -150,12 +152,12 @@ std::vector<std::string> input_files(const std::vector<std::string>& inputs) {
 
 std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
                                          const VolumeOptions& options, const Shard& shard,
-                                         bool quiet) {
+                                         bool quiet, const std::string& parts_advice) {
   auto inputs = std::make_unique<JoinedGrains>(shard);
   for (const std::string& path : files) {
     if (is_volume(path)) {
       std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
-      print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
+      print_notes(*grains, parts_advice, quiet);
       auto labels = std::make_unique<LabelSource>(path, std::move(grains));
       const std::string census = labels->census([](const std::string&) { return MadeGrain(); });
       print({census_line(census_states(census), "labels")}, quiet);

@@ -214,8 +214,7 @@ int run(const ExtractArguments& given) {
     grains.add(std::move(bodies));
   } else {
     auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
-    print_notes(*labels, "wscvt extract " + arguments.input + " " + arguments.folder,
-                arguments.quiet);
+    print_notes(*labels, use_parts, arguments.quiet);
     if (arguments.conforming) return run_conforming(arguments, *labels);
     grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
   }
