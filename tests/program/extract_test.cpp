@@ -279,6 +279,12 @@ TEST_F(Extract, CountsLabelsInEachCommand) {
     const Outcome outcome = run(call);
     EXPECT_NE(outcome.output.find(line), std::string::npos) << call << outcome.output;
   }
+  // A batch of meshes beside a table of the user's.
+  write_mesh(test::sphere(2), path("ball.ply"));
+  fs::create_directory(path("mine"));
+  std::ofstream(path("mine/labels.csv")) << "number\n1\n";
+  EXPECT_EQ(run("batch ball.ply -o mine -n 40 -q --describe none").exit_code, 0);
+  EXPECT_EQ(content("mine/summary.json").find("labels"), std::string::npos);
   const std::string json = content("out/summary.json");
   EXPECT_NE(json.find("\"at the border\": 1"), std::string::npos) << json;
   EXPECT_NE(content("out/summary.html").find("1 at the border, 1 too small."), std::string::npos);

@@ -16,6 +16,7 @@
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
+#include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -194,7 +195,9 @@ class GrainRemesh {
 /// Returns the states of the labels of a job's volumes; empty if it has none.
 CensusStates label_states(const GrainJob& job) {
   std::ifstream file(std::filesystem::path(job.folder) / "labels.csv", std::ios::binary);
-  CensusStates states = census_states({std::istreambuf_iterator<char>(file), {}});
+  const std::string table((std::istreambuf_iterator<char>(file)), {});
+  if (table.rfind(label_header(), 0) != 0) return {};
+  CensusStates states = census_states(table);
   // A batch of meshes may stand beside the table of extract.
   return states.count("written") > 0 ? CensusStates() : states;
 }
