@@ -424,7 +424,7 @@ TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
                         }),
               1);
   });
-  EXPECT_NE(small.find("only 8 voxels"), std::string::npos) << small;
+  EXPECT_NE(small.find("Grain 0 has only 8 voxels"), std::string::npos) << small;
   EXPECT_NE(small.find("--smallest"), std::string::npos) << small;
   EXPECT_NE(refused(2, 0.5).find("below a voxel's edge"), std::string::npos);
   EXPECT_NE(refused(2, -1.0), "");

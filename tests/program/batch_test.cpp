@@ -381,6 +381,56 @@ TEST_F(Batch, OtherCommandsDoNotReplaceItsFiles) {
   EXPECT_EQ(run("sample out -q --report out/sample.csv --report shape.csv").exit_code, 0);
 }
 
+TEST_F(Batch, OtherCommandsDoNotReplaceFilesOfItsGrains) {
+  write_scans(2);
+  ASSERT_EQ(run("batch scans -o out -q -n 40 --describe none --node-table csv").exit_code, 0);
+  ASSERT_EQ(run("batch scans -o levels -q -n 40,60 --describe none").exit_code, 0);
+  for (const char* file : {"out/a.ply", "levels/n40/a.ply"}) {
+    SCOPED_TRACE(file);
+    const std::string before = content(file);
+    const Outcome outcome = run(std::string("remesh scans/a.ply ") + file + " -n 50 -q");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
+    EXPECT_NE(outcome.errors.find("is a file of a batch"), std::string::npos) << outcome.errors;
+    EXPECT_EQ(content(file), before);
+  }
+  const std::string nodes = content("out/node-table/a.csv");
+  EXPECT_EQ(run("remesh scans/a.ply a.ply -n 50 -q --node-table out/node-table/a.csv").exit_code,
+            2);
+  EXPECT_EQ(content("out/node-table/a.csv"), nodes);
+  // A file of the user beside them, also again.
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(run("remesh scans/a.ply out/a.off -n 50 -q").exit_code, 0);
+  }
+}
+
+TEST_F(Batch, OtherCommandsDoNotReplaceTables) {
+  write_scans(1);
+  const std::vector<std::pair<std::string, std::string>> tables = {
+      {"labels.csv", "grain,label,name"},
+      {"bodies.csv", "body,state,volume"},
+      {"contacts.csv", "first,second,area"},
+      {"fragments.csv", "fragment,file,volume"},
+      {"grains.csv", "label,name,voxels"}};
+  for (const auto& [name, header] : tables) {
+    SCOPED_TRACE(name);
+    const std::string before = header + "\r\n";
+    std::ofstream(path(name)) << before;
+    for (const std::string call :
+         {"remesh scans/a.ply o.ply -n 40 -q --node-table ", "clump scans/a.ply -k 2 -q -o "}) {
+      const Outcome outcome = run(call + name);
+      EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
+      EXPECT_NE(outcome.errors.find("is a table of another command"), std::string::npos)
+          << outcome.errors;
+    }
+    EXPECT_EQ(content(name), before);
+  }
+  // One's own, again.
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(run("remesh scans/a.ply o.ply -n 40 -q --node-table nodes.csv").exit_code, 0);
+    EXPECT_EQ(run("clump scans/a.ply -k 2 -q -o labels_of_mine.csv").exit_code, 0);
+  }
+}
+
 TEST_F(Batch, NamesOfAnyLengthAreRemeshed) {
   write_scans(1);
   fs::create_directory(folder_ / "long");

@@ -12,6 +12,7 @@
 #include "program_run.h"
 #include "support/flat_json.h"
 #include "support/made_volume.h"
+#include "support/test_shapes.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -64,7 +65,7 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_EQ(
       outcome.errors.rfind("Warning: 1 label of 3 is in several parts. Only the largest part of "
                            "each label is used. The others, 0.512 % of all voxels, are left out. "
-                           "To make each part a grain: wscvt extract sample.nrrd out --parts.",
+                           "To make each part a grain, use --parts, and another output folder.",
                            0),
       0U)
       << outcome.errors;
@@ -164,6 +165,38 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
       << alone.errors;
 }
 
+TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
+  write_sample();
+  IndexedMesh mesh = test::sphere(2);
+  for (const double x : {4.0, 8.0}) {
+    mesh = test::joined(mesh, test::moved(test::sphere(2), 1.0, {x, 0, 0}));
+  }
+  write_mesh(mesh, path("bodies.obj"));
+  ASSERT_EQ(run("extract sample.nrrd labels -q").exit_code, 0);
+  ASSERT_EQ(run("extract bodies.obj bodies -q").exit_code, 0);
+  const std::string label = content("labels/3.ply");
+  const std::string body = content("bodies/3.ply");
+  const std::string table = content("labels/labels.csv");
+  for (const std::string call :
+       {"extract bodies.obj labels", "extract sample.nrrd bodies",
+        "extract sample.nrrd bodies --conforming", "batch bodies.obj -o labels --parts -n 60",
+        "batch sample.nrrd -o bodies -n 60", "batch sample.nrrd -o labels -n 60 --format off",
+        "batch sample.nrrd -o labels -n 60,80"}) {
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.exit_code, 2) << call << outcome.errors;
+    EXPECT_NE(outcome.errors.find("has the results of another command ("), std::string::npos)
+        << call << outcome.errors;
+  }
+  EXPECT_EQ(content("labels/3.ply"), label);
+  EXPECT_EQ(content("bodies/3.ply"), body);
+  EXPECT_EQ(content("labels/labels.csv"), table);
+  for (const char* file : {"labels/bodies.csv", "labels/call.json", "bodies/labels.csv"}) {
+    EXPECT_FALSE(exists(file)) << file;
+  }
+  // Other files beside them.
+  EXPECT_EQ(run("clump sample.nrrd -k 2 -o labels -q").exit_code, 0);
+}
+
 TEST_F(Extract, LengthsOfTwoUnitsAreInNoTable) {
   write_sample("mm.nrrd");
   test::write_bytes(folder_ / "um.nrrd",
@@ -224,6 +257,37 @@ TEST_F(Extract, CountsWhatBecameOfTheLabels) {
       outcome.output.find("6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n"),
       std::string::npos)
       << outcome.output;
+}
+
+TEST_F(Extract, NamesALabelThatIsTooSmallForWalls) {
+  volume_.fill_ball(3, {20, 20, 30}, 8.0);
+  volume_.fill_box(7, {40, 40, 40}, {41, 41, 41});
+  test::write_bytes(folder_ / "sample.nrrd", test::nrrd(volume_, ""));
+  EXPECT_NE(run("extract sample.nrrd out --conforming --smallest 1")
+                .errors.find("Label 7 has only 1 voxel in its largest piece. "),
+            std::string::npos)
+      << content("stderr.txt");
+  EXPECT_EQ(run("extract sample.nrrd out --conforming --smallest 64").exit_code, 0);
+}
+
+TEST_F(Extract, CountsLabelsInEachCommand) {
+  write_sample();
+  const std::string line = "5 labels: 3 taken, 1 at the border, 1 too small\n";
+  for (const std::string call :
+       {"extract sample.nrrd walls --conforming", "clump sample.nrrd -k 2 -o clumps",
+        "batch sample.nrrd -o out -n 60 --describe none"}) {
+    const Outcome outcome = run(call);
+    EXPECT_NE(outcome.output.find(line), std::string::npos) << call << outcome.output;
+  }
+  // A batch of meshes beside a table of the user's.
+  write_mesh(test::sphere(2), path("ball.ply"));
+  fs::create_directory(path("mine"));
+  std::ofstream(path("mine/labels.csv")) << "number\n1\n";
+  EXPECT_EQ(run("batch ball.ply -o mine -n 40 -q --describe none").exit_code, 0);
+  EXPECT_EQ(content("mine/summary.json").find("labels"), std::string::npos);
+  const std::string json = content("out/summary.json");
+  EXPECT_NE(json.find("\"at the border\": 1"), std::string::npos) << json;
+  EXPECT_NE(content("out/summary.html").find("1 at the border, 1 too small."), std::string::npos);
 }
 
 TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {

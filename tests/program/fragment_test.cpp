@@ -80,6 +80,25 @@ TEST_F(FragmentCommand, LeavesNoFragmentOfAnEarlierCall) {
   EXPECT_TRUE(exists("out/fragment_3.ply"));
 }
 
+TEST_F(FragmentCommand, ReplacesNoFragmentsOfAnotherGrain) {
+  IndexedMesh other = grain;
+  for (Vector3& point : other.points) point.x() *= 1.01;
+  write_mesh(other, path("other.ply"));
+  write_mesh(grain, path("same.stl"));
+  ASSERT_EQ(run("fragment grain.ply -k 4 -o out -n 60 -q").exit_code, 0);
+  const std::string table = content("out/fragments.csv");
+  const std::string mesh = content("out/fragment_1.ply");
+  const Outcome outcome = run("fragment other.ply -k 2 -o out");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.errors.find("\"out\" has the fragments of another grain"), std::string::npos)
+      << outcome.errors;
+  EXPECT_EQ(content("out/fragments.csv"), table);
+  EXPECT_EQ(content("out/fragment_1.ply"), mesh);
+  EXPECT_TRUE(exists("out/fragment_4.ply"));
+  EXPECT_EQ(run("fragment same.stl -k 2 -o out -q").exit_code, 0) << "another file of the grain";
+  EXPECT_FALSE(exists("out/fragment_4.ply"));
+}
+
 TEST_F(FragmentCommand, RemeshesWithCommonWalls) {
   const Outcome outcome = run("fragment grain.ply -k 4 -o out -n 100");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;

@@ -139,6 +139,21 @@ TEST_F(Grow, FollowsAGivenSizeCurve) {
   EXPECT_LT(most, 4.0);
 }
 
+TEST_F(Grow, ReplacesNoRealGrain) {
+  write_sample(8);
+  fs::rename(path("real/g10.json"), path("real/grown-00001.json"));
+  fs::create_directory_symlink("real", path("link"));
+  const std::string before = content("real/grown-00001.json");
+  expect_refused("grow",
+                 {{"real -o real -k 2 --degree 6 --format json", 2,
+                   "would replace the scan \"real/grown-00001.json\""},
+                  {"real -o link -k 2 --degree 6 --format json", 2, "would replace the scan"}},
+                 {"real/grown.csv", "real/call.json"});
+  EXPECT_EQ(content("real/grown-00001.json"), before);
+  const Outcome other = run("grow real -o real -k 2 --degree 6 -n 60");
+  EXPECT_EQ(other.exit_code, 0) << other.errors << "another format";
+}
+
 TEST_F(Grow, RefusesWrongCalls) {
   write_sample(7);
   expect_refused("grow",

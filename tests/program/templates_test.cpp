@@ -101,6 +101,17 @@ TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
   }
 }
 
+TEST_F(Templates, ReplaceNoScan) {
+  write_scans(3);
+  fs::rename(path("scans/s10.stl"), path("scans/template-02.stl"));
+  const std::string before = content("scans/template-02.stl");
+  expect_refused("grow --templates",
+                 {{"scans -k 2 -n 60 -o scans --format stl", 2,
+                   "would replace the scan \"scans/template-02.stl\""}},
+                 {"scans/templates.csv", "scans/template-01.stl", "scans/call.json"});
+  EXPECT_EQ(content("scans/template-02.stl"), before);
+}
+
 TEST_F(Templates, RefusesWrongCalls) {
   write_scans(3);
   std::ofstream(path("same.csv")) << "file,volume,convexity\na.ply,1,0.9\nb.ply,2,0.9\n";

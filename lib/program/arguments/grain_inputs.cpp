@@ -12,6 +12,7 @@
 #include "program/call/exit_code.h"
 #include "program/terminal/terminal.h"
 #include "program/terminal/work.h"
+#include "toolbox/job/extract_job.h"
 #include "toolbox/job/label_source.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/volume/open_volume.h"
@@ -127,7 +128,9 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, double density, int threads, bool quiet) {
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
-  const std::unique_ptr<GrainSource> inputs = open_inputs(files, {}, arguments.shard, quiet);
+  const std::unique_ptr<GrainSource> inputs = open_inputs(
+      files, {}, arguments.shard, quiet,
+      "call wscvt extract VOLUME OUT --parts first, and give OUT instead of the volume");
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
@@ -149,13 +152,16 @@ std::vector<std::string> input_files(const std::vector<std::string>& inputs) {
 
 std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
                                          const VolumeOptions& options, const Shard& shard,
-                                         bool quiet) {
+                                         bool quiet, const std::string& parts_advice) {
   auto inputs = std::make_unique<JoinedGrains>(shard);
   for (const std::string& path : files) {
     if (is_volume(path)) {
       std::unique_ptr<LabelGrains> grains = open_grains(path, options, quiet);
-      print_notes(*grains, "wscvt batch " + path + " -o OUT", quiet);
-      inputs->add(std::make_unique<LabelSource>(path, std::move(grains)));
+      print_notes(*grains, parts_advice, quiet);
+      auto labels = std::make_unique<LabelSource>(path, std::move(grains));
+      const std::string census = labels->census([](const std::string&) { return MadeGrain(); });
+      print({census_line(census_states(census), "labels")}, quiet);
+      inputs->add(std::move(labels));
     } else if (options.parts) {
       std::unique_ptr<MeshGrains> bodies = with_progress(
           quiet, [&](const Execution& one) { return std::make_unique<MeshGrains>(path, one); });

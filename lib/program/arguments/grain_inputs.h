@@ -56,6 +56,6 @@ std::vector<std::string> input_files(const std::vector<std::string>& inputs);
 /// in its row.
 std::unique_ptr<GrainSource> open_inputs(const std::vector<std::string>& files,
                                          const VolumeOptions& options, const Shard& shard,
-                                         bool quiet);
+                                         bool quiet, const std::string& parts_advice);
 
 }  // namespace wscvt::program

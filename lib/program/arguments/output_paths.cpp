@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/arguments/output_paths.h"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "toolbox/job/job_folder.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::program {
 
@@ -10,28 +16,37 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a path names a table, a page or the call of the output folder of a batch, which the
-/// batch needs to continue, or which other commands read.
+/// Whether a path names a file of the output folder of a batch, which the batch needs to continue,
+/// or which other commands read: the file of a grain, a table, a page or the call.
 bool is_kept_by_batch(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::string kind = stem.substr(0, stem.find('-'));
-  std::error_code ignored;
-  if ((kind != "grains" && kind != "shape" && kind != "call" && kind != "summary" &&
-       kind != "labels" && kind != "mass") ||
-      !fs::exists(path, ignored)) {
-    return false;
+  if (kind != "grains" && kind != "shape" && kind != "call" && kind != "summary" &&
+      kind != "labels" && kind != "mass") {
+    return is_kept_by_job(path.string());
   }
   // A level of a batch has its call in the folder above.
+  std::error_code ignored;
   const fs::path folder = fs::absolute(path, ignored).parent_path();
-  for (const fs::path& place : {folder, folder.parent_path()}) {
-    for (const fs::directory_entry& entry : fs::directory_iterator(place, ignored)) {
-      const std::string name = entry.path().filename().string();
-      if (name == "call.json" || (name.rfind("call-", 0) == 0 && name.find("-of-") != name.npos)) {
-        return true;
-      }
-    }
-  }
-  return false;
+  return !kept_call(folder.string()).empty() || !kept_call(folder.parent_path().string()).empty();
+}
+
+/// Whether a file is a table that tells of the other files of a command's folder. Its user's own
+/// tables of points, spheres and reports begin with other columns.
+bool is_table_of_folder(const std::string& path) {
+  if (ending_of(path) != ".csv") return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string first;
+  std::getline(file, first);
+  constexpr const char* beginnings[] = {"grain,",
+                                        "label,name,",
+                                        "body,state,",
+                                        "fragment,file,",
+                                        "first,second,",
+                                        "descriptor,by_number,",
+                                        "equivalent_diameter [length],"};
+  return std::any_of(std::begin(beginnings), std::end(beginnings),
+                     [&](const char* beginning) { return first.rfind(beginning, 0) == 0; });
 }
 
 }  // namespace
@@ -54,9 +69,14 @@ void check_output_paths(const std::vector<NamedFile>& inputs,
       refuse("\"" + output.path + "\", given for " + output.meaning + ", is " + input.meaning +
              " itself. Give another name.");
     }
-    if (is_kept_by_batch(output.path)) {
-      refuse("\"" + output.path + "\", given for " + output.meaning +
-             ", is a file of a batch, which needs it. Give another name.");
+    std::error_code ignored;
+    if (fs::is_regular_file(output.path, ignored)) {
+      const bool is_kept = is_kept_by_batch(output.path);
+      if (is_kept || is_table_of_folder(output.path)) {
+        refuse("\"" + output.path + "\", given for " + output.meaning + ", is a " +
+               (is_kept ? "file of a batch, which needs it" : "table of another command") +
+               ". Give another name.");
+      }
     }
     wscvt::check_writable(output.path);
   }

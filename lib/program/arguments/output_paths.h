@@ -14,7 +14,8 @@ struct NamedFile {
 };
 
 /// Throws wscvt::Error before any work is done if an output cannot be written, if two outputs are
-/// one file, if an output is an input, or if an output is a table, a page or the call of a batch.
+/// one file, if an output is an input, or if an output is a file of a batch or the table of another
+/// command's folder.
 void check_output_paths(const std::vector<NamedFile>& inputs,
                         const std::vector<NamedFile>& outputs);
 

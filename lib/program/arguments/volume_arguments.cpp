@@ -115,7 +115,7 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
   });
 }
 
-void print_notes(const LabelGrains& grains, const std::string& command, bool quiet) {
+void print_notes(const LabelGrains& grains, const std::string& parts_advice, bool quiet) {
   print({grains.description()}, quiet);
   for (const std::string& note : grains.notes()) print({note}, quiet);
   print_warnings({grains.warnings().begin(), grains.warnings().end()});
@@ -143,9 +143,9 @@ void print_notes(const LabelGrains& grains, const std::string& command, bool qui
                                                          "labels of them first, by wscvt segment."
                                                        : "");
   std::fprintf(stderr,
-               "Warning: %s To make each part a grain: %s --parts. --separate 0.85 also separates "
-               "grains that touch.\n",
-               what.c_str(), command.c_str());
+               "Warning: %s To make each part a grain, %s. --separate 0.85 also separates grains "
+               "that touch.\n",
+               what.c_str(), parts_advice.c_str());
 }
 
 bool is_much_left_out(double fraction) {

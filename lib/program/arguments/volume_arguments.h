@@ -25,8 +25,11 @@ std::unique_ptr<LabelGrains> open_grains(const std::string& volume, const Volume
                                          bool quiet);
 
 /// Prints how a volume was read to the standard output, unless quiet. Prints the fraction that is
-/// left out to the standard error. `command` is the call that makes each part a grain.
-void print_notes(const LabelGrains& grains, const std::string& command, bool quiet);
+/// left out to the standard error, with the advice for who wants each part to be a grain.
+void print_notes(const LabelGrains& grains, const std::string& parts_advice, bool quiet);
+
+/// For commands with add_volume_arguments. The folder may keep the results of other options.
+inline constexpr const char* use_parts = "use --parts, and another output folder";
 
 /// Returns whether the fraction of a volume that is left out is so large that the exit code is
 /// SomeFailed.

@@ -95,7 +95,7 @@ int run(const BatchArguments& arguments) {
   if (!arguments.quiet) check_writable("/dev/stdout");
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs =
-      open_inputs(files, arguments.job.volume, arguments.shard, arguments.quiet);
+      open_inputs(files, arguments.job.volume, arguments.shard, arguments.quiet, use_parts);
   RemeshJob options = arguments.job;
   options.shapes.contacts = options.shapes.described == Described::Contacts;
   options.shapes.resolution =

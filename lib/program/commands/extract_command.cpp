@@ -59,8 +59,15 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const auto in_folder = [&](const std::string& name) {
     return (fs::path(arguments.folder) / name).string();
   };
-  require_no_job(arguments.folder);
-  require_own_table(arguments.folder, "grains.csv", conforming_csv(ConformingGrains(), {}, {}));
+  std::vector<std::string> files;
+  for (const Label label : labels) {
+    files.push_back(std::to_string(label) + "." + arguments.job.format);
+  }
+  checked([&] {
+    require_no_job(arguments.folder);
+    require_own_table(arguments.folder, "grains.csv", conforming_csv(ConformingGrains(), {}, {}));
+    require_no_other_results(arguments.folder, "labels", {files.begin(), files.end()});
+  });
   check_writable(in_folder("grains.csv"));
   const OlderFiles older(arguments.folder, {"labels.csv", "grains.csv"});
   ConformingOptions options = arguments.walls;
@@ -68,10 +75,8 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   const ConformingGrains result =
       conform_labels(grains.voxels(), labels, options, work.execution());
   const std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
-  std::vector<std::string> files;
   for (std::size_t g = 0; g < labels.size(); ++g) {
-    files.push_back(std::to_string(labels[g]) + "." + arguments.job.format);
-    work.write(in_folder(files.back()),
+    work.write(in_folder(files[g]),
                [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
   }
   const auto write = [&](const char* name, const std::string& text) {
@@ -88,6 +93,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   write("walls.csv", walls_csv(result, labels));
   write("grains.csv", conforming_csv(result, labels, files));
   std::vector<std::string> lines = conforming_lines(result);
+  lines.insert(lines.begin(), census_line(census_states(rows), "labels"));
   for (std::string& line : older.remove_but(files, arguments.input))
     lines.push_back(std::move(line));
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
@@ -208,8 +214,7 @@ int run(const ExtractArguments& given) {
     grains.add(std::move(bodies));
   } else {
     auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
-    print_notes(*labels, "wscvt extract " + arguments.input + " " + arguments.folder,
-                arguments.quiet);
+    print_notes(*labels, use_parts, arguments.quiet);
     if (arguments.conforming) return run_conforming(arguments, *labels);
     grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
   }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -21,10 +24,12 @@
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/fragment/fragment_options.h"
 #include "toolbox/job/job_folder.h"
+#include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -76,6 +81,30 @@ FragmentOptions options_of(const FragmentArguments& arguments) {
 bool is_remeshed(const FragmentArguments& arguments) {
   return arguments.walls.nodes > 0 || arguments.walls.edge_length > 0.0 ||
          !arguments.tetrahedra.files.empty();
+}
+
+/// Refuses a folder with the fragments of another grain: fragments have the volume of their grain,
+/// however many they are, and a remesh keeps it.
+void require_same_grain(const std::string& folder, double volume) {
+  constexpr double rounding = 1e-6;  // of files of single precision
+  std::ifstream table(fs::path(folder) / "fragments.csv", std::ios::binary);
+  CsvReader reader(table);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) return;
+  const auto column = std::find(fields.begin(), fields.end(), "volume") - fields.begin();
+  double sum = 0.0;
+  while (reader.next(fields)) {
+    const std::string& field = fields.at(static_cast<std::size_t>(column));
+    double one = 0.0;
+    std::from_chars(field.data(), field.data() + field.size(), one);
+    sum += one;
+  }
+  if (sum == 0.0 || std::abs(sum - volume) <= rounding * volume) return;
+  refuse(
+      "The folder \"" + folder +
+      "\" has the fragments of another grain, which would be replaced: their volumes add up to " +
+      format_number(sum, 8) + ", and this grain has " + format_number(volume, 8) +
+      ". Give another folder with " + mention("output") + ".");
 }
 
 CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
@@ -155,9 +184,12 @@ int run(const FragmentArguments& arguments) {
   }
   const std::vector<std::string> about = fragment_lines(fragments);
   lines.insert(lines.begin(), about.begin(), about.end());
-  require_no_job(arguments.folder);
-  require_own_table(arguments.folder, "fragments.csv", fragments_csv(Fragments(), {}));
-  require_own_table(arguments.folder, "contacts.csv", fragment_contacts_csv(Fragments()));
+  checked([&] {
+    require_no_job(arguments.folder);
+    require_own_table(arguments.folder, "fragments.csv", fragments_csv(Fragments(), {}));
+    require_own_table(arguments.folder, "contacts.csv", fragment_contacts_csv(Fragments()));
+    require_same_grain(arguments.folder, fragments.grain.volume);
+  });
   const OlderFiles older(arguments.folder, {"fragments.csv"});
   const MadeFolder made(arguments.folder);
   for (std::size_t k = 0; k < files.size(); ++k) {

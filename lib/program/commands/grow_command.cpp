@@ -63,6 +63,7 @@ int choose_templates_of(const GrowArguments& arguments) {
   const MadeFolder folder(job.folder);
   const DescribedSample sample =
       described_sample(arguments.inputs, job.descriptors, arguments.threads, arguments.quiet);
+  checked([&] { require_scans_kept(job, sample.files); });
   MadeTemplates made;
   on_terminal(arguments.threads, arguments.quiet, [&](const JobHost& host) {
     made = make_templates(job, sample, grain_mesh, host);
@@ -134,7 +135,11 @@ int run(const GrowArguments& arguments) {
   if (!arguments.quiet) check_writable("/dev/stdout");
   if (arguments.templates) return choose_templates_of(arguments);
   const GrowJob job = checked([&] { return checked_job(arguments); });
-  const std::vector<std::string> files = checked([&] { return shape_files(arguments.inputs); });
+  const std::vector<std::string> files = checked([&] {
+    std::vector<std::string> real = shape_files(arguments.inputs);
+    require_scans_kept(job, real);
+    return real;
+  });
   const MadeFolder folder(job.folder);
   const auto grids = std::make_unique<const SampleGrids>(job.degree);
   RealGrains real = read_shapes(files, *grids, arguments.threads, arguments.quiet);

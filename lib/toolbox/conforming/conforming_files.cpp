@@ -78,7 +78,7 @@ ConformingGrains conform_labels(LabelVolume& volume, const std::vector<Label>& l
   VolumeGeometry geometry = volume.geometry();
   geometry.corner = geometry.point(Vector3(-1.0, -1.0, -1.0));
   return conform_grains(std::move(voxels), labels.size(), geometry, options,
-                        execution.part(reading, 1.0));
+                        execution.part(reading, 1.0), labels);
 }
 
 std::string walls_vtu(const ConformingGrains& grains, const std::vector<Label>& labels) {

@@ -166,7 +166,7 @@ void check_conforming_options(const ConformingOptions& options) {
 
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
-                                const Execution& execution) {
+                                const Execution& execution, const std::vector<Label>& labels) {
   check_conforming_options(options);
   if (grains == 0) refuse("There is no grain to remesh.");
   const double voxel = longest_voxel_edge(geometry);
@@ -183,12 +183,15 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   result.grains.resize(grains);
   std::vector<double> volumes(grains);
   for (std::size_t g = 0; g < grains; ++g) {
-    if (pieces[g].voxels == 0) refuse("Grain " + std::to_string(g) + " has no voxel.");
+    const std::string name =
+        labels.empty() ? "Grain " + std::to_string(g) : "Label " + std::to_string(labels.at(g));
+    if (pieces[g].voxels == 0) refuse(name + " has no voxel.");
     ConformingGrain& grain = result.grains[g];
     grain.voxels = cleaned[g].voxels;
     if (grain.voxels < fewest_voxels) {
-      refuse("A grain has only " + std::to_string(grain.voxels) +
-             " voxels. Its wall cannot be smoothed. Leave out grains of less than " +
+      refuse(name + " has only " + std::to_string(grain.voxels) +
+             (grain.voxels == 1 ? " voxel" : " voxels") +
+             " in its largest piece. Its wall cannot be smoothed. Leave out grains of less than " +
              std::to_string(fewest_voxels) + " voxels by " + mention(smallest_option) + ".");
     }
     grain.gained = cleaned[g].voxels - pieces[g].voxels;

@@ -79,10 +79,10 @@ struct ConformingGrains : WallComplex {
 /// `intersections` counts those that are left, usually at contacts of few faces of voxels. The
 /// result does not depend on the number of threads. Throws Error: InvalidInput without grains, for
 /// a grain without voxels, and for an edge length below a voxel's; NumericalFailure as
-/// make_well_composed does; Cancelled.
+/// make_well_composed does; Cancelled. `labels` of the grains, for messages; empty: numbers from 0.
 ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                 const VolumeGeometry& geometry, const ConformingOptions& options,
-                                const Execution& execution);
+                                const Execution& execution, const std::vector<Label>& labels = {});
 
 /// Replaces the meshes of fragments by remeshes, in the same way: two that touch have the nodes and
 /// triangles of their wall in common, walls stay where the cells met, and each fragment keeps its

@@ -75,11 +75,10 @@ std::string shape_record(const ExtractJob& job, const GrainAtWork& grain) {
   }
 }
 
-/// "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small".
-std::string line_of(const std::string& census, const std::string& noun) {
-  std::map<std::string, std::size_t> states;
-  std::size_t rows = 0;
-  std::size_t pores = 0;
+}  // namespace
+
+CensusStates census_states(const std::string& census) {
+  CensusStates states;
   std::istringstream stream(census);
   CsvReader reader(stream);
   std::vector<std::string> heading;
@@ -92,14 +91,20 @@ std::string line_of(const std::string& census, const std::string& noun) {
   const std::size_t state = column("state");
   const std::size_t pore = column("pores");
   while (reader.next(fields)) {
-    ++rows;
-    const bool in_pieces = fields[state].rfind("in ", 0) == 0;
+    ++states["all"];
+    const bool in_pieces = fields.at(state).rfind("in ", 0) == 0;
     ++states[in_pieces ? "pieces" : fields[state]];
     if (in_pieces) ++states["written"];
-    if (pore < fields.size()) pores += std::stoul(fields[pore]);
+    if (pore < fields.size()) states["pores"] += std::stoul(fields[pore]);
   }
-  std::string text = std::to_string(rows) + (rows == 1 && noun == "bodies" ? " body" : " " + noun) +
-                     ": " + std::to_string(states["written"]) + " written";
+  return states;
+}
+
+std::string census_line(CensusStates states, const std::string& noun) {
+  const bool is_one_body = states["all"] == 1 && noun == "bodies";
+  const char* made = states["taken"] > 0 ? "taken" : "written";
+  std::string text = std::to_string(states["all"]) + (is_one_body ? " body" : " " + noun) + ": " +
+                     std::to_string(states[made]) + " " + made;
   if (states["pieces"] > 0) text += " (" + std::to_string(states["pieces"]) + " in pieces)";
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += ", " + std::to_string(count) + what;
@@ -108,11 +113,9 @@ std::string line_of(const std::string& census, const std::string& noun) {
   add(states["too small"], " too small");
   add(states["open"], " open and only listed");
   add(states["failed"], " failed");
-  add(pores, pores == 1 ? " pore in them" : " pores in them");
+  add(states["pores"], states["pores"] == 1 ? " pore in them" : " pores in them");
   return text;
 }
-
-}  // namespace
 
 Json json_of(const VolumeOptions& options) {
   Json json = Json::object();
@@ -239,6 +242,7 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
   job.call = json_document(call);
   job.tables = {{"grains", header}};
   if (options.describe) job.tables.push_back({"shape", shape_header(measures_of(options))});
+  job.last_table = {options.table, of_labels ? header : body_header()};
   job.takes_refused = true;
   job.is_kept = false;
   job.make = [options](GrainAtWork& grain) {
@@ -281,7 +285,7 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   rows.close();
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
-  std::vector<std::string> lines = {line_of(census, options.table)};
+  std::vector<std::string> lines = {census_line(census_states(census), options.table)};
   std::istringstream made(census);
   for (std::string& line :
        older.remove_but(files_named_in(made), grains.size() > 0 ? grains.file(0) : "")) {

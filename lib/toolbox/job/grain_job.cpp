@@ -26,15 +26,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Throws Error. `scan`: its name in quotes; empty: that of the grain.
+[[noreturn]] void refuse_replacing(const std::string& grain, const std::string& scan) {
+  refuse("The files of \"" + grain + "\" would replace the scan" + scan +
+         ". Give another folder with " + mention("output") + ", or another " + mention("format") +
+         ".");
+}
+
+/// Scans, to be found by a path that leads to one of them.
+class Scans {
+ public:
+  explicit Scans(const std::vector<std::string>& scans) {
+    std::error_code missing;
+    for (const std::string& scan : scans) places_.insert(fs::weakly_canonical(scan, missing));
+  }
+
+  bool has(const std::string& file) const {
+    std::error_code missing;
+    return fs::exists(file, missing) && places_.count(fs::weakly_canonical(file, missing)) > 0;
+  }
+
+ private:
+  std::set<fs::path> places_;
+};
+
 /// Refuses grains whose files would replace each other, or a scan.
 void check_files(const JobFolder& folder, const GrainJob& job,
                  const std::vector<std::string>& grains) {
   std::map<std::string, const std::string*> made;
-  std::set<fs::path> scans;
-  std::error_code missing;
-  if (job.beside) {
-    for (const std::string& grain : grains) scans.insert(fs::weakly_canonical(grain, missing));
-  }
+  const Scans scans(job.beside ? grains : std::vector<std::string>());
   for (const std::string& grain : grains) {
     const auto [other, is_new] = made.emplace(folder.file_of(grain), &grain);
     if (!is_new) {
@@ -44,22 +64,29 @@ void check_files(const JobFolder& folder, const GrainJob& job,
     const auto is_scan = [&](const std::string& file) {
       return same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
     };
-    const auto refuse_replacing = [&](const std::string& scan) {
-      refuse("The files of \"" + grain + "\" would replace the scan" + scan +
-             ". Give another folder with " + mention("output") + ", or another " +
-             mention("format") + ".");
-    };
-    if (is_scan(other->first)) refuse_replacing("");
+    if (is_scan(other->first)) refuse_replacing(grain, "");
     for (const JobFiles& files : job.more_files) {
-      if (is_scan(folder.file_of(grain, files))) refuse_replacing("");
+      if (is_scan(folder.file_of(grain, files))) refuse_replacing(grain, "");
     }
     if (!job.beside) continue;
     for (const std::string& file : job.beside(other->first)) {
-      const bool is_there = fs::exists(file, missing);
-      if (!is_there || scans.count(fs::weakly_canonical(file, missing)) == 0) continue;
-      refuse_replacing(" \"" + file + "\"");
+      if (scans.has(file)) refuse_replacing(grain, " \"" + file + "\"");
     }
   }
+}
+
+/// Refuses a folder where results of another command, which keeps no call, would be replaced.
+void check_results(const JobFolder& folder, const GrainJob& job, const GrainSource& source,
+                   const std::vector<std::string>& grains) {
+  const JobTable& last = job.last_table.name.empty() ? job.tables.front() : job.last_table;
+  if (!job.last_table.name.empty()) require_own_table(job.folder, last.name + ".csv", last.header);
+  if (!kept_call(job.folder).empty()) return;
+  std::set<std::string> made;
+  if (job.has_census && source.volumes() > 0) made.insert("labels.csv");
+  if (job.levels.empty()) {
+    for (const std::string& grain : grains) made.insert(folder.name_of(grain));
+  }
+  require_no_other_results(job.folder, last.name, made);
 }
 
 /// Whether the folder has tables of this part, with or without levels.
@@ -341,12 +368,28 @@ std::vector<JobFolder> folders_of(const GrainJob& job) {
   return folders;
 }
 
+void require_scans_kept(const GrainJob& job, const GrainSource& grains,
+                        const std::vector<std::string>& scans) {
+  const Scans kept(scans);
+  for (const JobFolder& folder : folders_of(job)) {
+    for (std::size_t k = 0; k < grains.size(); ++k) {
+      const std::string grain = grains.name(k);
+      std::vector<std::string> made = {folder.file_of(grain)};
+      for (const JobFiles& files : job.more_files) made.push_back(folder.file_of(grain, files));
+      for (const std::string& file : made) {
+        if (kept.has(file)) refuse_replacing(grain, " \"" + file + "\"");
+      }
+    }
+  }
+}
+
 JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   const JobFolder whole(job.folder, job.ending, job.shard);
   const std::vector<JobFolder> folders = folders_of(job);
   std::vector<std::string> names(grains.size());
   for (std::size_t k = 0; k < names.size(); ++k) names[k] = grains.name(k);
   for (const JobFolder& folder : folders) check_files(folder, job, names);
+  check_results(folders.front(), job, grains, names);
   std::error_code ignored;  // the first write into the folder reports it
   fs::create_directories(whole.path(), ignored);
   const PartRows parts(job, folders);

@@ -42,6 +42,7 @@ struct GrainJob {
   std::vector<std::string> levels;
   std::string call;              ///< options that must be equal when the job is started again; JSON
   std::vector<JobTable> tables;  ///< of each level; the first is "grains"
+  JobTable last_table = {};      ///< that the caller makes of the first; without a name: none
   bool has_census = false;       ///< writes GrainSource::census to labels.csv
   bool reads_pictures = false;   ///< see GrainSource::read
   bool takes_refused = false;    ///< makes also what is refused, see GrainScan
@@ -60,6 +61,11 @@ struct GrainJob {
 
 /// Returns the folders of the levels; if there are no levels, the folder of the job.
 std::vector<JobFolder> folders_of(const GrainJob& job);
+
+/// Throws Error(InvalidInput) if a file of a grain of the job would replace one of `scans`, of
+/// which the grains are made. For a source whose grains have no files of their own.
+void require_scans_kept(const GrainJob& job, const GrainSource& grains,
+                        const std::vector<std::string>& scans);
 
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.

@@ -202,6 +202,19 @@ std::vector<std::string> lines_of(const Growing& growing, const GrainTable& tabl
   return lines;
 }
 
+std::unique_ptr<NamedGrains> grains_of(const GrowJob& job) {
+  return std::make_unique<NamedGrains>("grown-", static_cast<std::size_t>(job.grains), 5);
+}
+
+/// Returns a job with only what names its files.
+GrainJob files_of(const GrowJob& options) {
+  GrainJob job;
+  job.folder = options.folder;
+  job.shard = options.shard;
+  job.ending = options.format;
+  return job;
+}
+
 GrainJob job_of(const GrowJob& options, const Growing& growing) {
   Json call = {{"format", "wscvt-grow"},           {"made_by", made_by()},
                {"meshes", options.format},         {"count", options.grains},
@@ -211,10 +224,7 @@ GrainJob job_of(const GrowJob& options, const Growing& growing) {
   for (int k = 0; options.sizes && k <= 10; ++k) {
     call["sizes"].push_back(options.sizes->diameter(0.1 * k));
   }
-  GrainJob job;
-  job.folder = options.folder;
-  job.shard = options.shard;
-  job.ending = options.format;
+  GrainJob job = files_of(options);
   job.call = json_document(call);
   job.tables = {{"grown", csv_record({std::begin(table_heading), std::end(table_heading)})}};
   job.is_kept = false;
@@ -234,6 +244,10 @@ void check_job(const GrowJob& job) {
   if (!writes_coefficients(job)) check_format(job.format);
 }
 
+void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real) {
+  require_scans_kept(files_of(job), *grains_of(job), real);
+}
+
 GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
                         const JobHost& host) {
   const Execution execution(host.threads);
@@ -242,7 +256,7 @@ GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGri
                         GrainGrower(std::move(real.grains), grids, options.options),
                         std::move(search), GrownMeshes(options.nodes, execution)};
   JoinedGrains grains(options.shard);
-  grains.add(std::make_unique<NamedGrains>("grown-", static_cast<std::size_t>(options.grains), 5));
+  grains.add(grains_of(options));
   const GrainJob job = job_of(options, growing);
   GrownSample grown;
   grown.end = run_job(job, grains, host);

@@ -27,6 +27,17 @@ std::string stem_of(const std::string& file) {
   return name.stem().string();
 }
 
+/// Returns the ending of the files of grains, without the point, from a call.json; empty: unknown.
+std::string ending_in_call(const std::string& text) {
+  const Json call = Json::parse(text, nullptr, false);
+  if (!call.is_object()) return "";
+  for (const char* key : {"meshes", "clumps", "parts"}) {
+    const auto found = call.find(key);
+    if (found != call.end() && found->is_string()) return found->get<std::string>();
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string format_of_call(const std::string& text) {
@@ -73,6 +84,61 @@ void require_no_job(const std::string& folder) {
   const std::string call((std::istreambuf_iterator<char>(file)), {});
   const std::string format = format_of_call(call);
   if (!format.empty()) refuse_folder(folder, format);
+}
+
+std::string kept_call(const std::string& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "call.json" || (name.rfind("call-", 0) == 0 && name.find("-of-") != name.npos)) {
+      std::ifstream file(entry.path(), std::ios::binary);
+      return {std::istreambuf_iterator<char>(file), {}};
+    }
+  }
+  return {};
+}
+
+bool is_kept_by_job(const std::string& file) {
+  std::error_code ignored;
+  fs::path folder = fs::absolute(file, ignored).parent_path();
+  const std::string name = fs::path(file).filename().string();
+  const bool is_beside = folder.filename() == "node-table" || folder.filename() == "sdf";
+  if (is_beside) folder = folder.parent_path();
+  std::string call = kept_call(folder.string());
+  // A level has its call in the folder above.
+  if (call.empty()) call = kept_call(folder.parent_path().string());
+  const std::string ending = is_beside ? "" : ending_in_call(call);
+  if (call.empty() || (ending.empty() && !is_beside)) return false;
+  const JobFolder folders[] = {{folder, ending, {}, false}, {folder, ending, {}, true}};
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const fs::path& table = entry.path();
+    if (table.filename().string().rfind("grains", 0) != 0 || table.extension() != ".csv") continue;
+    std::ifstream rows(table, std::ios::binary);
+    CsvReader reader(rows);
+    std::vector<std::string> fields;
+    while (reader.next(fields)) {
+      for (const JobFolder& one : folders) {
+        const std::string made = one.name_of(fields.front());
+        if (is_beside ? name.rfind(made, 0) == 0 : name == made) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void require_no_other_results(const std::string& folder, const std::string& own,
+                              const std::set<std::string>& made) {
+  for (const std::string table : {"labels", "bodies", "fragments", "grown", "templates"}) {
+    if (table == own) continue;
+    std::ifstream file(fs::path(folder) / (table + ".csv"), std::ios::binary);
+    if (!file) continue;
+    const std::vector<std::string> files = files_named_in(file);
+    const bool is_replaced = made.count(table + ".csv") > 0 ||
+                             std::any_of(files.begin(), files.end(), [&](const std::string& name) {
+                               return made.count(name) > 0;
+                             });
+    if (is_replaced) refuse_folder(folder, table + ".csv");
+  }
 }
 
 void require_own_table(const std::string& folder, const std::string& table,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <istream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,19 @@ std::string format_of_call(const std::string& text);
 /// Throws Error(InvalidInput) if a job keeps its results in this folder. For commands that write
 /// other files there.
 void require_no_job(const std::string& folder);
+
+/// Returns the options that a job, or a part of one, keeps in this folder; empty: none.
+std::string kept_call(const std::string& folder);
+
+/// Whether a job that keeps its call would take the file for that of a grain in its table: a mesh,
+/// a clump, parts, or a table or grid of nodes.
+bool is_kept_by_job(const std::string& file);
+
+/// Throws Error(InvalidInput) if one of the files `made` is a table of results of another command
+/// in the folder, such as "labels.csv", or is named in one. For commands that keep no call. `own`:
+/// such a table of the command itself, without ending.
+void require_no_other_results(const std::string& folder, const std::string& own,
+                              const std::set<std::string>& made);
 
 /// Throws Error(InvalidInput) if the folder has a table of this name, such as "grains.csv", with
 /// another first record than `header`: it is of another command, or the user's.

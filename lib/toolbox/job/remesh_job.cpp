@@ -2,6 +2,9 @@
 #include "toolbox/job/remesh_job.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -13,6 +16,7 @@
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
+#include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -188,6 +192,16 @@ class GrainRemesh {
   MeasuredScan measured_;
 };
 
+/// Returns the states of the labels of a job's volumes; empty if it has none.
+CensusStates label_states(const GrainJob& job) {
+  std::ifstream file(std::filesystem::path(job.folder) / "labels.csv", std::ios::binary);
+  const std::string table((std::istreambuf_iterator<char>(file)), {});
+  if (table.rfind(label_header(), 0) != 0) return {};
+  CensusStates states = census_states(table);
+  // A batch of meshes may stand beside the table of extract.
+  return states.count("written") > 0 ? CensusStates() : states;
+}
+
 }  // namespace
 
 void check_job(const RemeshJob& job) {
@@ -245,8 +259,11 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
 std::vector<std::string> write_summaries(const GrainJob& job) {
   std::vector<std::string> lines;
   if (job.shard.count > 1) return lines;
+  const CensusStates labels = label_states(job);
   for (const JobFolder& folder : folders_of(job)) {
-    const SampleSummary summary = summarise_table(folder.table());
+    SampleSummary summary = summarise_table(folder.table());
+    summary.labels = labels;
+    if (!labels.empty()) summary.labels_line = census_line(labels, "labels");
     for (const char* ending : {".json", ".html"}) {
       write_summary(folder.file("summary", ending), summary,
                     [&](const std::string& grain) { return folder.file_of(grain); });

@@ -131,13 +131,23 @@ std::string distance_table(const TemplateJob& job, const SampleTemplates& templa
   return table;
 }
 
-GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
-                const SampleTemplates& templates) {
+std::unique_ptr<NamedGrains> grains_of(std::size_t count, NamedGrains::Read read) {
+  return std::make_unique<NamedGrains>("template-", count, 2, std::move(read));
+}
+
+/// Returns a job with only what names its files.
+GrainJob files_of(const TemplateJob& options) {
   GrainJob job;
   job.folder = options.folder;
   job.shard = options.shard;
   job.ending = options.format;
   job.more_files = {{"", "spheres"}};
+  return job;
+}
+
+GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
+                const SampleTemplates& templates) {
+  GrainJob job = files_of(options);
   job.call = json_document({{"format", "wscvt-templates"},
                             {"made_by", made_by()},
                             {"meshes", options.format},
@@ -195,6 +205,11 @@ void write_sample_files(const TemplateJob& job, const DescribedSample& sample,
 
 }  // namespace
 
+void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample) {
+  const auto count = static_cast<std::size_t>(job.options.count);
+  require_scans_kept(files_of(job), *grains_of(count, {}), sample);
+}
+
 MadeTemplates make_templates(
     const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
@@ -205,7 +220,7 @@ MadeTemplates make_templates(
     return read(sample.files[templates.grains[k]], execution);
   };
   JoinedGrains grains(options.shard);
-  grains.add(std::make_unique<NamedGrains>("template-", templates.grains.size(), 2, read_chosen));
+  grains.add(grains_of(templates.grains.size(), read_chosen));
   const GrainJob job = job_of(options, sample, templates);
   MadeTemplates made;
   made.end = run_job(job, grains, host);

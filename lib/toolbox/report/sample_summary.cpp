@@ -341,22 +341,25 @@ std::string summary_json(const SampleSummary& summary) {
   }
   Json warned = Json::array();
   for (const GrainMessage& one : summary.warned) warned.push_back(one.grain);
-  return json_document({{"format", "wscvt-sample"},
-                        {"version", 1},
-                        {"made_by", made_by()},
-                        {"grains", summary.grains},
-                        {"remeshed", summary.grains - summary.failed},
-                        {"with_warnings", summary.with_warnings},
-                        {"grains_with_warnings", warned},
-                        {"failed", summary.failed},
-                        {"distributions", distributions},
-                        {"failures", failures}});
+  Json json = {{"format", "wscvt-sample"},
+               {"version", 1},
+               {"made_by", made_by()},
+               {"grains", summary.grains},
+               {"remeshed", summary.grains - summary.failed},
+               {"with_warnings", summary.with_warnings},
+               {"grains_with_warnings", warned},
+               {"failed", summary.failed},
+               {"distributions", distributions},
+               {"failures", failures}};
+  if (!summary.labels.empty()) json["labels"] = summary.labels;
+  return json_document(json);
 }
 
 std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of) {
   HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
   page.add_paragraph(origin_sentence({}));
   page.add_paragraph(count_line(summary) + ".");
+  if (!summary.labels_line.empty()) page.add_paragraph(summary.labels_line + ".");
   if (!summary.options.empty()) page.add_paragraph(options_line(summary));
   add_messages(page, "Failures", "error", summary.failures, summary.failed);
   add_messages(page, "Warnings", "warnings", summary.warned, summary.with_warnings);

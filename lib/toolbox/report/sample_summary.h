@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,9 @@ struct GrainDistance {
 
 /// Statistics of a sample's table (see sample_table.h).
 struct SampleSummary {
+  /// Labels of the sample's volumes by their state in labels.csv, and of "all"; empty: no volumes.
+  std::map<std::string, std::size_t> labels;
+  std::string labels_line;  ///< the same for people
   std::size_t grains = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
