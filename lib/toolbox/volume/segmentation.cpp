@@ -476,9 +476,14 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double neck,
                                            const Execution& execution) {
-  Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.9));
+  Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.8));
   mask = {};
   join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
+  if (basins.step > 0.0) {
+    straighten_walls(basins.labels, basins.distances, geometry.counts,
+                     geometry.axes.colwise().norm().transpose() / basins.step,
+                     execution.part(0.8, 0.9));
+  }
   basins.distances = {};
   return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins.labels)), 0,
                   execution.part(0.9, 1.0));
