@@ -236,7 +236,10 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
         "\xEF\xBB\xBFid,r,x,y,z\n1,1,0,0,0.5\n2,0.9,0.5,-1,0\n",
         "# x\ty\tz\tradius\n0\t0\t0.5\t1\n0.5\t-1\t0\t0.9\n",
         "x[mm],y[mm],z[mm],r[mm]\n0,0,0.5,1\n0.5,-1,0,0.9\n",
-        "x,y,z,diameter\n0,0,0.5,2\n0.5,-1,0,1.8\n"}) {
+        "x,y,z,diameter\n0,0,0.5,2\n0.5,-1,0,1.8\n",
+        "# clump\n\n# of 2\nx,y,z,r\n0,0,0.5,1\n0.5,-1,0,0.9\n",
+        "# clump\n0,0,0.5,1\n0.5,-1,0,0.9\n", "x,y,z,r,diameter\n0,0,0.5,1,2\n0.5,-1,0,0.9,1.8\n",
+        "diameter,radius,x,y,z\n2,1,0,0,0.5\n1.8,0.9,0.5,-1,0\n"}) {
     SCOPED_TRACE(text);
     const std::string name = file("spheres.csv", text);
     EXPECT_TRUE(is_clump_file(name));
@@ -251,6 +254,13 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
       ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });
   EXPECT_NE(sentence.find("x, y, z and r"), std::string::npos) << sentence;
   EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
+  EXPECT_FALSE(is_clump_file(file("red.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n")));
+  EXPECT_TRUE(has_sphere_heading(file("named.txt", "# clump\nx y z r\n0 0 0 1\n")));
+  EXPECT_FALSE(has_sphere_heading(file("grey.txt", "0 0 0 1\n")));
+  const std::string line = test::refusal(ErrorCode::InvalidInput, [&] {
+    read_clump(file("bad.csv", "# clump\nx,y,z,r\n0,0,0,1\n0,0,0,-1\n"));
+  });
+  EXPECT_NE(line.find("Line 4"), std::string::npos) << line;
 }
 
 // The words are those of Kratos's public clusters; it reads numbers after them, line by line.

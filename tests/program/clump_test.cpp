@@ -36,6 +36,15 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
   const Outcome compared = run("describe c.csv scan.ply");
   EXPECT_EQ(compared.exit_code, 0) << compared.errors;
   EXPECT_NE(compared.output.find("root mean square, from the reference"), std::string::npos);
+  // A point cloud of centres is no grain.
+  for (const char* call : {"remesh c.csv out.ply -n 100", "remesh c.csv out.ply -n 100 --points",
+                           "convex c.csv -o parts.obj", "clump c.csv -k 2 -o d.csv",
+                           "batch c.csv -o out -n 100", "describe scan.ply c.csv"}) {
+    const Outcome refused = run(call);
+    EXPECT_NE(refused.exit_code, 0) << call;
+    EXPECT_NE(refused.errors.find("wscvt describe CLUMP.csv SCAN"), std::string::npos)
+        << call << ": " << refused.errors;
+  }
 }
 
 TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {

@@ -430,6 +430,10 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
            {head("BINARY", "7 5 3"), "no array"},
            {head("BINARY", "7 5 3") + "POINT_DATA 105\nTENSORS t float\n", "\"tensors\""},
            {head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS l bit\nLOOKUP_TABLE d\n", "bit"},
+           {"# vtk DataFile Version 3.0\nx\nBINARY\nDATASET STRUCTURED_POINTS\nDIMENSIONS 7 5 3\n"
+            "SPACING -1 -1 1\n" +
+                scalars + made_.bytes<std::uint16_t>(true),
+            "the spacing -1, -1, 1"},
            {head("OTHER", "7 5 3"), "ASCII"}}) {
     write("a.vtk", wrong);
     expect_refused("a.vtk", {word});
@@ -505,6 +509,9 @@ TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
     expect_placed("a.h5", Vector3(1, 2, 4));
     add("more", H5T_STD_I32BE, {1, 3, 5, 7}, made_.bytes<std::int32_t>(true), chunk);
     expect_refused("a.h5", {"2 arrays", "\"/deep/in/labels\"", "\"/more\""});
+    add("turned", H5T_NATIVE_UINT16, {3, 5, 7}, made_.bytes<std::uint16_t>(), chunk, false,
+        {-4.0, 2.0, 1.0});
+    expect_refused("a.h5", {"the spacing 1, 2, -4"}, array("turned"));
     expect_made("a.h5", array("/more"));
     expect_made("a.h5", array("deep/in/labels"));
     expect_refused("a.h5", {"\"/table\"", "Correct --array"}, array("table"));
@@ -566,6 +573,10 @@ TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
                  (has_channel ? "," + key("c") : "") + "]}");
     expect_placed("a.h5", Vector3(1, 1, 1));
   }
+  std::filesystem::remove(path("a.h5"));
+  add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3}, bytes);
+  add_text("exported_data", "axistags", R"({"axes":[)" + key("z") + "," + key("y") + "]}");
+  expect_refused("a.h5", {"axistags of 2 axes", "3 dimensions"});
 }
 
 TEST_F(Hdf5Volumes, OfDream3dHaveTheSizeOfTheirGeometry) {
@@ -579,12 +590,21 @@ TEST_F(Hdf5Volumes, OfDream3dHaveTheSizeOfTheirGeometry) {
   add("DataContainers/Image/_SIMPL_GEOMETRY/SPACING", H5T_NATIVE_FLOAT, {3}, bytes());
   numbers = {10.0F, 20.0F, 30.0F};
   add("DataContainers/Image/_SIMPL_GEOMETRY/ORIGIN", H5T_NATIVE_FLOAT, {3}, bytes());
+  const std::string geometry_group = "DataContainers/Image/_SIMPL_GEOMETRY/";
+  numbers = {7.0F, 5.0F, 3.0F};
+  add(geometry_group + "DIMENSIONS", H5T_NATIVE_FLOAT, {3}, bytes());
   std::filesystem::rename(path("a.h5"), path("a.dream3d"));
   EXPECT_TRUE(is_volume(path("a.dream3d")));
   expect_made("a.dream3d");
   EXPECT_NE(notes("a.dream3d").at(0).find("CellData/FeatureIds\""), std::string::npos);
   EXPECT_EQ(geometry("a.dream3d").point({1, 1, 1}), Vector3(10.5, 20.25, 31.0));
   expect_made("a.dream3d", array(cells + "Phases"));
+  add(cells + "FeatureIds", H5T_NATIVE_INT32, {3, 5, 7, 1}, made_.bytes<std::int32_t>());
+  numbers = {0.5F, 0.25F, 1.0F};
+  add(geometry_group + "SPACING", H5T_NATIVE_FLOAT, {3}, bytes());
+  numbers = {3.0F, 5.0F, 7.0F};
+  add(geometry_group + "DIMENSIONS", H5T_NATIVE_FLOAT, {3}, bytes());
+  expect_refused("a.h5", {"7 voxels along x", "DIMENSIONS say 3"});
 }
 
 TEST_F(Hdf5Volumes, WithVoxelsInOtherFilesAreRefused) {
@@ -606,7 +626,8 @@ TEST_F(Hdf5Volumes, WithVoxelsInOtherFilesAreRefused) {
     H5Pclose(made);
     H5Sclose(space);
     H5Fclose(file);
-    expect_refused("a.h5", {is_virtual ? "virtual data set" : "external storage", "h5repack"});
+    expect_refused("a.h5", {is_virtual ? "virtual data set" : "external storage",
+                            "h5py.File(\"a.h5\")[\"/labels\"][()]"});
   }
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <lz4.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -236,6 +237,37 @@ TEST_F(HeaderVolumes, SaysOfASizeWhenItFitsNot) {
   choice.voxel_size = Vector3(2, 2, 2);
   choice.unit = "mm";
   EXPECT_EQ(geometry("a.nrrd", choice).unit, "mm");
+}
+
+TEST_F(HeaderVolumes, RefusesLengthsOfVoxelsThatAreNotAboveZero) {
+  const std::string bytes = made_.bytes<std::uint16_t>();
+  VolumeChoice size;
+  size.voxel_size = Vector3(1, 2, 3);
+  for (const char* lengths : {"-1 -1 -1", "1 -1 2", "-2 -1 1", "1 0 1", "1e400 1 1"}) {
+    SCOPED_TRACE(lengths);
+    const std::string text = lengths;
+    write("a.nrrd", nrrd("encoding: raw\nspacings: " + text + "\n\n") + bytes);
+    write("a.mha", meta("ElementSpacing = " + text + "\nElementDataFile = LOCAL\n") + bytes);
+    write("a.vti", test::packed_vti(made_, "<ImageData WholeExtent=\"0 6 0 4 0 2\" Spacing=\"" +
+                                               text + "\"><Piece Extent=\"0 6 0 4 0 2\">"));
+    std::string commas = text;
+    std::replace(commas.begin(), commas.end(), ' ', ',');
+    write("a.raw", bytes);
+    write("a.json", R"({"dimensions": [7, 5, 3], "type": "uint16", "spacing": [)" + commas + "]}");
+    for (const char* name : {"a.nrrd", "a.mha", "a.vti", "a.json"}) {
+      if (text.find("e400") != std::string::npos) {
+        expect_refused(name, {});
+        continue;
+      }
+      expect_refused(name, {"the spacing ", "above 0", "--voxel-size"});
+      expect_made(name, size);
+    }
+  }
+  // A direction may be backwards.
+  write("a.nrrd", nrrd("encoding: raw\nspace dimension: 3\nspace directions: (-1,0,0) (0,1,0) "
+                       "(0,0,-2)\n\n") +
+                      bytes);
+  expect_made("a.nrrd");
 }
 
 TEST_F(HeaderVolumes, ReadsMetaImageOfEveryTypeAndForm) {

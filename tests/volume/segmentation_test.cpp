@@ -201,6 +201,36 @@ TEST_F(SegmentationOfAFile, MeasuresNecksAgainstTheSmallerGrain) {
   EXPECT_EQ(segmented(wide).grains.size(), 3U);
 }
 
+TEST_F(SegmentationOfAFile, WallsAreStraightAlsoWhereVoxelsAreLong) {
+  // Two balls of 15 that overlap: those of a watershed had 73 to 139 voxels on the wrong side.
+  for (const double length : {1.0, 1.5, 2.5}) {
+    const Vector3 spacing(1.0, 1.0, length);
+    for (const Vector3& along : {Vector3(2.0, 1.0, 1.5), Vector3(0.4, 0.6, 1.0)}) {
+      const Vector3 middle(40.7, 30.8, 30.6);
+      const Vector3 half = 13.0 * along.normalized();
+      const auto away = [&](const Vector3& p, double side) {
+        return (p.cwiseProduct(spacing) - (middle + side * half)).norm();
+      };
+      made_ = MadeVolume({80, 60, static_cast<int>(60.0 / length)});
+      made_.fill(2, [&](const Vector3& p) { return away(p, 1.0) < 15.0; });
+      made_.fill(1, [&](const Vector3& p) { return away(p, -1.0) < std::min(15.0, away(p, 1.0)); });
+      const std::vector<Label> truth(made_.labels.begin(), made_.labels.end());
+      for (auto& label : made_.labels) label = label == 0 ? 0 : 1;
+      write_made("1 1 " + std::to_string(length));
+      const Segmentation found = segmented({}, 2);
+      ASSERT_EQ(found.grains.size(), 2U) << length;
+      const std::vector<Label> labels = kept(found);
+      EXPECT_EQ(kept(segmented()), labels);
+      std::array<int, 2> wrong = {0, 0};
+      for (std::size_t k = 0; k < labels.size(); ++k) {
+        if (labels[k] == 0) continue;
+        ++wrong[labels[k] == truth[k] ? 1 : 0];
+      }
+      EXPECT_LE(std::min(wrong[0], wrong[1]), 30) << length << ", " << along.transpose();
+    }
+  }
+}
+
 TEST_F(SegmentationOfAFile, FillsHolesDropsSpecksAndKnowsTheBorder) {
   made_ = MadeVolume({60, 40, 30});
   const std::int64_t ball = made_.fill_ball(200, {14, 14, 14}, 10.0);
@@ -596,6 +626,45 @@ TEST_F(SegmentationOfTwoMinerals, MasksOfPhasesAreNoLabels) {
   }
 }
 
+TEST_F(SegmentationOfAFile, MasksAreTakenAsTheyAre) {
+  made_ = MadeVolume({60, 26, 26});
+  std::int64_t grains = 0;
+  for (const double x : {14.0, 45.0}) {
+    made_.fill_ball(1, {x, 13, 13}, 9.5);
+    grains += made_.fill_ball(2, {x, 13, 13}, 6.5);
+  }
+  write_made();
+  SegmentationOptions options;
+  for (const bool is_dark : {false, true}) {
+    options.dark = is_dark;
+    options.phases = 1;
+    const Segmentation found = segmented(options);
+    EXPECT_TRUE(found.is_mask);
+    EXPECT_EQ(found.grains.size(), 2U);
+    EXPECT_EQ(found.material, static_cast<std::uint64_t>(grains));
+    options.phases = 3;
+    EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { segmented(options); })
+                  .find("at most 2 can be material"),
+              std::string::npos);
+    for (Label& label : made_.labels) label = 2 - label;
+    write_made();
+  }
+  options = {};
+  options.threshold = 2.0;
+  EXPECT_EQ(segmented(options).material, static_cast<std::uint64_t>(grains));
+  // NaN is the void, also at the border.
+  std::vector<float> values;
+  for (const Label label : made_.labels) {
+    values.push_back(label == 2 ? 1.0F : std::numeric_limits<float>::quiet_NaN());
+  }
+  write("a.nrrd", "NRRD0004\ntype: float\ndimension: 3\nencoding: raw\nendian: little\nsizes: " +
+                      made_.size_text() + "\n\n" + raw_bytes(values));
+  const Segmentation found = segmented();
+  EXPECT_EQ(found.grains.size(), 2U);
+  EXPECT_EQ(found.material, static_cast<std::uint64_t>(grains));
+  EXPECT_EQ(found.not_scanned, 0U);
+}
+
 TEST_F(SegmentationOfAFile, BlurAndMedianDoNotMoveCurvedSurfaces) {
   // The share of a voxel in the body, from four points along each axis; then a Gaussian blur of .8
   // voxels and noise of 5 % of the contrast.
@@ -654,6 +723,8 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   EXPECT_EQ(looks(found), "");
   make({200, 90, 30});
   write_made();
+  EXPECT_NE(looks(segmented()).find("--dark"), std::string::npos);
+  EXPECT_EQ(looks(segmented()).find("--phases"), std::string::npos) << looks(segmented());
   EXPECT_EQ(segmented(options).grains.size(), 8U);
   options.phases = 1;
   EXPECT_EQ(segmented(options).grains.size(), 2U);

@@ -535,7 +535,7 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
   write_tiff(path("slices/s9.tif"), odd, {pages_of<std::uint8_t>()[1]});
   expect_refused("slices", {"s9.tif", "8 bits"});
   write_tiff(path("slices/s9.tif"), as(), {page(0), page(1)});
-  expect_refused("slices", {"s9.tif", "2 pages"});
+  expect_refused("slices", {"s9.tif", "2 pages", "Save all slices in one file"});
   write("slices/s9.tif", "no TIFF");
   expect_refused("slices", {"s9.tif"});
   fs::remove(path("slices/s9.tif"));
@@ -545,6 +545,8 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
     fs::remove(path(name));
   }
   expect_refused("slices", {"no .tif, .png or .bmp"});
+  write("slices/grain.ply", "ply\n");
+  expect_refused("slices", {"folder of meshes", "wscvt batch FOLDER"});
 }
 
 TEST_F(TiffVolume, ReadsFoldersOfPngs) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "program/call/command.h"
+#include "toolbox/exchange/clump_files.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"
@@ -56,7 +57,15 @@ void check_mesh_input(const std::string& path) {
         "\" is a folder. wscvt batch FOLDER -o OUT remeshes all meshes in it; this command takes "
         "one file.");
   }
+  refuse_spheres(path);
   check_mesh_format(path, MeshUse::Read);
+}
+
+void refuse_spheres(const std::string& path) {
+  if (is_mesh_file(path) || !has_sphere_heading(path)) return;
+  refuse("\"" + path +
+         "\" is a table of spheres, as of a clump, not a mesh. wscvt describe CLUMP.csv SCAN "
+         "measures it.");
 }
 
 std::string mesh_argument_text(const std::string& what, MeshUse use) {

@@ -40,8 +40,11 @@ void add_shard_argument(CLI::App& app, Shard& shard);
 void add_format_argument(CLI::App& app, std::string& format);
 
 /// Throws wscvt::Error(InvalidInput) for an input that is not a mesh, with the command for it: a
-/// volume, a folder, another ending.
+/// volume, a folder, a table of spheres, another ending.
 void check_mesh_input(const std::string& path);
+
+/// Throws wscvt::Error(InvalidInput), with the command for it, for a table that names spheres.
+void refuse_spheres(const std::string& path);
 
 /// Returns the help text of a mesh that is read or written: "Scan: .ply, .stl or .obj".
 std::string mesh_argument_text(const std::string& what, MeshUse use);

@@ -145,7 +145,9 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
 std::vector<std::string> input_files(const std::vector<std::string>& inputs) {
   std::vector<std::string> files = grain_files(inputs, is_volume);
   for (const std::string& file : files) {
-    if (!is_volume(file)) check_mesh_format(file, MeshUse::Read);
+    if (is_volume(file)) continue;
+    refuse_spheres(file);
+    check_mesh_format(file, MeshUse::Read);
   }
   return files;
 }

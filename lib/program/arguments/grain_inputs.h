@@ -47,7 +47,7 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, double density, int threads, bool quiet);
 
 /// Returns the files of the inputs of a batch, see grain_files. Throws wscvt::Error for a file that
-/// is no volume and whose ending is that of no mesh.
+/// is no volume and whose ending is that of no mesh, and for a table of spheres.
 std::vector<std::string> input_files(const std::vector<std::string>& inputs);
 
 /// Opens the inputs of a batch: mesh files, and volumes of labels, whose labels it finds. With

@@ -113,6 +113,7 @@ int run(const ClumpArguments& arguments) {
   }
   const std::string& scan = arguments.sample.inputs.front();
   checked([&] {
+    refuse_spheres(scan);
     check_mesh_format(scan, MeshUse::Read);
     std::vector<NamedFile> outputs = named_reports(common.reports);
     for (const std::string& output : arguments.outputs) {

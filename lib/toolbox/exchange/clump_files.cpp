@@ -353,6 +353,7 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
   columns.count = words.size();
   std::size_t numbers = 0;
   std::array<int, 4> found{};
+  int diameters = 0;
   for (std::size_t k = 0; k < words.size(); ++k) {
     if (number_in(words[k])) ++numbers;
     std::string name = lower_case(words[k]);
@@ -367,29 +368,56 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
         ++found[axis];
       }
     }
-    const bool is_diameter = name == "d" || name == "diameter";
-    if (is_diameter || name == "r" || name == "radius" || name == "rad") {
+    if (name == "g" || name == "green") return {};  // beside it r is red
+    if (name == "r" || name == "radius" || name == "rad") {
       columns.of[3] = k;
-      columns.has_diameter = is_diameter;
       ++found[3];
+    } else if (name == "d" || name == "diameter") {
+      if (found[3] == 0) columns.of[3] = k;
+      ++diameters;
     }
+  }
+  if (found[3] == 0) {
+    columns.has_diameter = true;
+    found[3] = diameters;
   }
   if (found == std::array<int, 4>{1, 1, 1, 1}) return columns;
   if (numbers != 4 || words.size() != 4) return {};
   columns.of = {0, 1, 2, 3};
   columns.has_heading = false;
+  columns.has_diameter = false;
   return columns;
+}
+
+/// Reads up to the line that tells the columns, behind comments that do not; `number`: of the line.
+std::optional<SphereColumns> next_columns(std::istream& stream, std::string& line,
+                                          std::size_t& number) {
+  constexpr std::size_t most_comments = 100;
+  for (number = 1; number <= most_comments && next_line(stream, line); ++number) {
+    const std::optional<SphereColumns> columns = columns_of(line);
+    if (columns || (!line.empty() && line.front() != '#')) return columns;
+  }
+  return {};
+}
+
+std::optional<SphereColumns> columns_in(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  std::size_t number = 0;
+  return next_columns(stream, line, number);
 }
 
 }  // namespace
 
+bool has_sphere_heading(const std::string& path) {
+  const std::optional<SphereColumns> columns = columns_in(path);
+  return columns && columns->has_heading;
+}
+
 bool is_clump_file(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;
-  std::ifstream stream(path, std::ios::binary);
-  std::string line;
-  if (!next_line(stream, line)) return false;
-  const std::optional<SphereColumns> columns = columns_of(line);
+  const std::optional<SphereColumns> columns = columns_in(path);
   const std::string ending = ending_of(path);
   return columns &&
          (columns->has_heading || ending == ".csv" || ending == ".txt" || ending == ".multisphere");
@@ -403,8 +431,8 @@ std::vector<Sphere> read_clump(const std::string& path) {
                 "\"" + path + "\" cannot be opened. Check that the file exists.");
   }
   std::string line;
-  std::optional<SphereColumns> columns;
-  if (next_line(stream, line)) columns = columns_of(line);
+  std::size_t number = 0;
+  const std::optional<SphereColumns> columns = next_columns(stream, line, number);
   if (!columns) {
     refuse("\"" + path +
            "\" is not a table of spheres. Its first line must name the columns x, y, z and r (or "
@@ -412,8 +440,8 @@ std::vector<Sphere> read_clump(const std::string& path) {
   }
   std::vector<Sphere> spheres;
   bool is_read_already = !columns->has_heading;
-  for (std::size_t number = is_read_already ? 1 : 2; is_read_already || next_line(stream, line);
-       ++number) {
+  if (!is_read_already) ++number;
+  for (; is_read_already || next_line(stream, line); ++number) {
     is_read_already = false;
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string> words = words_of(line);

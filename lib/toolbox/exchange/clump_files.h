@@ -50,9 +50,13 @@ std::vector<std::string> files_of_clump(const std::string& path);
 void write_clump(const std::string& path, const ClumpResult& clump, const FrameOptions& frame,
                  double density = 1.0);
 
-/// Returns whether a file is a table of spheres: its first line names x, y, z and r, radius or
-/// diameter, or is four numbers in a .csv, .txt or .multisphere file. False if it cannot be read.
+/// Returns whether a file is a table of spheres: its first line, behind comments, names x, y, z and
+/// r, radius or diameter, or is four numbers in a .csv, .txt or .multisphere file. Of a radius and
+/// a diameter the radius is used. False if it cannot be read.
 bool is_clump_file(const std::string& path);
+
+/// Returns whether it is one by its heading: four numbers may be a point and a grey value.
+bool has_sphere_heading(const std::string& path);
 
 /// Reads the spheres of such a file. Throws Error: InvalidInput, with the line, for other content;
 /// InputOutput.

@@ -89,7 +89,8 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   }
   volume.picks = picks_of(volume.axes, choice, path);
   volume.geometry.counts = voxel_counts(counts, path);
-  volume.geometry.has_size = shape.voxel_size.minCoeff() > 0.0;
+  volume.geometry.has_size = !shape.voxel_size.isZero(0.0);
+  if (volume.geometry.has_size) require_spacing(shape.voxel_size, choice, path);
   if (volume.geometry.has_size) volume.geometry.unit = shape.unit;
   const Vector3 size = volume.geometry.has_size ? shape.voxel_size : Vector3(Vector3::Ones());
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();

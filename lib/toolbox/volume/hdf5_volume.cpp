@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // HDF5, read slice by slice by its own library (4 MB). MATLAB's files are HDF5 from version 7.3 on.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"
 #endif
 
@@ -108,13 +110,17 @@ void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& 
 }
 
 /// Refuses voxels that other files hold: a file could show any other file of the machine.
-void refuse_foreign_voxels(hid_t data_set, const std::string& path) {
+void refuse_foreign_voxels(hid_t data_set, const std::string& name, const std::string& path) {
   const Handle made(H5Dget_create_plist(data_set), H5Pclose);
   const bool is_external = H5Pget_external_count(made) > 0;
   if (!is_external && H5Pget_layout(made) != H5D_VIRTUAL) return;
-  refuse_volume(path, std::string("is an HDF5 file whose voxels are in other files, by ") +
-                          (is_external ? "external storage" : "a virtual data set") +
-                          ". Copy the voxels into one file, for example by h5repack.");
+  refuse_volume(path,
+                std::string("is an HDF5 file whose voxels are in other files, by ") +
+                    (is_external ? "external storage" : "a virtual data set") +
+                    ". Copy the voxels into one file, in its folder by python3 -c 'import h5py; "
+                    "h5py.File(\"one.h5\", \"w\")[\"labels\"] = h5py.File(" +
+                    in_quotes(std::filesystem::path(path).filename().string()) + ")[" +
+                    in_quotes(name) + "][()]'");
 }
 
 /// Returns the text of an attribute; empty without one.
@@ -141,11 +147,14 @@ std::string text_of(hid_t object, const char* name) {
 }
 
 /// Returns the roles of dimensions by ilastik's axistags; empty without them or for unknown ones.
-std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions) {
+std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions,
+                                   const std::string& path) {
   const Json json = Json::parse(text_of(data_set, "axistags"), nullptr, false);
-  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array() ||
-      json["axes"].size() != dimensions) {
-    return {};
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return {};
+  if (json["axes"].size() != dimensions) {
+    refuse_volume(path, "has axistags of " + std::to_string(json["axes"].size()) +
+                            " axes on a data set of " + std::to_string(dimensions) +
+                            " dimensions. Correct the attribute \"axistags\", or remove it.");
   }
   std::vector<int> roles;
   for (const Json& axis : json["axes"]) {
@@ -190,13 +199,22 @@ std::optional<Vector3> three_numbers(hid_t group, const std::string& data_set,
 
 /// Reads the geometry that DREAM.3D keeps in a group above the data set: version 6 in
 /// _SIMPL_GEOMETRY, version 7 in attributes.
-void read_dream3d(hid_t file, const std::string& name, ArrayShape& shape) {
+void read_dream3d(hid_t file, const std::string& name, const std::string& path, ArrayShape& shape) {
   for (std::size_t end = name.rfind('/'); end != std::string::npos && end > 0;
        end = name.rfind('/', end - 1)) {
     const Handle group(H5Gopen2(file, name.substr(0, end).c_str(), H5P_DEFAULT), H5Gclose);
     if (!group.is_there()) continue;
     const auto spacing = three_numbers(group, "_SIMPL_GEOMETRY/SPACING", "_SPACING");
-    if (!spacing || !(spacing->minCoeff() > 0.0)) continue;
+    if (!spacing) continue;
+    const auto sizes = three_numbers(group, "_SIMPL_GEOMETRY/DIMENSIONS", "_DIMENSIONS");
+    for (std::size_t axis = 0; sizes && axis < 3; ++axis) {
+      const double size = (*sizes)[static_cast<Eigen::Index>(axis)];
+      if (size == static_cast<double>(shape.counts[2 - axis])) continue;
+      refuse_volume(path, "has the array " + in_quotes(name) + " with " +
+                              std::to_string(shape.counts[2 - axis]) + " voxels along " +
+                              "xyz"[axis] + ", but DREAM.3D's DIMENSIONS say " +
+                              format_number(size, 10) + ". Export it again.");
+    }
     shape.voxel_size = *spacing;
     shape.corner = three_numbers(group, "_SIMPL_GEOMETRY/ORIGIN", "_ORIGIN");
     shape.unit = "";
@@ -223,7 +241,7 @@ Vector3 voxel_size_of(hid_t data_set) {
 
 ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path) {
   const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  refuse_foreign_voxels(data_set, path);
+  refuse_foreign_voxels(data_set, name, path);
   ArrayShape shape;
   for (const hsize_t count : counts_of(data_set)) {
     constexpr hsize_t most = 1000000000;
@@ -241,11 +259,11 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
     shape.roles[last - 1] = 0;
     shape.roles[last - 2] = 2;
   }
-  if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size());
+  if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size(), path);
   shape.voxel_size = voxel_size_of(data_set);
   shape.unit = "um";
   shape.size_source = "element_size_um";
-  if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, shape);
+  if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, path, shape);
   return shape;
 }
 

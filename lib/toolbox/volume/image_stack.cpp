@@ -11,6 +11,7 @@
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/text.h"
+#include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -236,7 +237,10 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
     kind = one;
   }
   if (kind == nullptr) {
-    refuse_volume(path, "has no .tif, .png or .bmp file. Check its name.");
+    const bool has_meshes = std::any_of(content.others.begin(), content.others.end(), is_mesh_file);
+    refuse_volume(path, has_meshes ? "is a folder of meshes, not of slices. wscvt batch FOLDER -o "
+                                     "OUT remeshes them."
+                                   : "has no .tif, .png or .bmp file. Check its name.");
   }
   keep_one_series(path, *kind, content.others);
   check_numbers(path, *kind);

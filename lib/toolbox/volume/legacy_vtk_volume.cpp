@@ -207,6 +207,7 @@ std::unique_ptr<LabelVolume> open_legacy_vtk(const std::string& path, const Volu
   geometry.counts = voxel_counts(
       {header.counts[0] - less, header.counts[1] - less, header.counts[2] - less}, path);
   const Vector3 to_centre = array.of_cells ? Vector3(0.5 * header.spacing) : Vector3::Zero();
+  require_spacing(header.spacing, choice, path);
   set_lattice(geometry, header.spacing.asDiagonal(), header.origin + to_centre, choice, path);
   VoxelData data;
   data.paths = {path};

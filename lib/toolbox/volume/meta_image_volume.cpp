@@ -145,6 +145,7 @@ void set_geometry(const MetaHeader& header, const VolumeChoice& choice, const st
     }
   }
   const Vector3 spacing = vector_of(header.spacing, header, Vector3::Ones(), path);
+  require_spacing(spacing, choice, path);
   set_lattice(geometry, directions * spacing.asDiagonal(),
               vector_of(header.origin, header, Vector3::Zero(), path), choice, path);
 }

@@ -221,6 +221,7 @@ void set_geometry(const NrrdHeader& header, const std::vector<VolumeAxis>& axes,
                               ". Give the size in one unit by " + mention("voxel-size") + ".");
     }
   }
+  if (header.directions.empty()) require_spacing(lattice.diagonal(), choice, path);
   set_lattice(geometry, lattice, header.origin, choice, path);
 }
 

@@ -91,6 +91,7 @@ std::unique_ptr<LabelVolume> open_raw(const std::string& path, const VolumeChoic
   geometry.unit = unit_of(text_of(description, "unit", "", path));
   geometry.has_size = description.contains("spacing");
   const Vector3 spacing = vector_of(description.value("spacing", Json(1)), "spacing", path);
+  require_spacing(spacing, choice, path);
   const Vector3 origin = vector_of(description.value("origin", Json(0)), "origin", path);
   set_lattice(geometry, spacing.asDiagonal(), origin, choice, path);
   VoxelType type = voxel_type_of(text_of(description, "type", "", path), path);

@@ -77,11 +77,15 @@ std::size_t voxels_of(const VoxelCounts& counts) {
          static_cast<std::size_t>(counts[2]);
 }
 
+/// A volume of so few values may be a mask of phases.
+constexpr std::size_t most_phases = 8;
+
 /// Statistics of the grey values of a volume; values that are not finite are ignored.
 struct GreyRange {
   float least = std::numeric_limits<float>::max();
   float largest = std::numeric_limits<float>::lowest();
-  bool are_two = true;
+  std::vector<float> values;  ///< ascending, up to one more than most_phases
+  bool has_nan = false;
   bool are_whole = true;
   /// Range of all values but a thousandth at each end, widened by a quarter of it at both ends.
   float lower = 0.0F;
@@ -96,7 +100,6 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
   std::vector<float> sample;
   std::uint64_t count = 0;
   std::uint64_t equal = 0;
-  std::optional<float> other;
   std::size_t voxel = 0;
   for_each_row(volume, execution, [&](const std::vector<Label>& row) {
     float before = std::numeric_limits<float>::quiet_NaN();
@@ -104,22 +107,24 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
       const float value = grey_value(code);
       const bool is_outside = !outside.empty() && outside[voxel] != 0;
       ++voxel;
+      range.has_nan = range.has_nan || code == 0;
       if (is_outside || !std::isfinite(value)) continue;
       if (value == before) ++equal;
       constexpr std::uint64_t sampled = 61;  // no common factor with usual row lengths
       if (count++ % sampled == 0) sample.push_back(value);
       if (value == before) continue;
       before = value;
-      if (count > 1 && value != sample.front()) {
-        if (other && value != *other) range.are_two = false;
-        other = value;
+      if (range.values.size() <= most_phases) {
+        const auto place = std::lower_bound(range.values.begin(), range.values.end(), value);
+        if (place == range.values.end() || *place != value) range.values.insert(place, value);
       }
       range.least = std::min(range.least, value);
       range.largest = std::max(range.largest, value);
       range.are_whole = range.are_whole && value == std::floor(value);
     }
   });
-  if (!(range.least < range.largest)) {
+  // What is no number is the void of a mask of one value.
+  if (count == 0 || (!(range.least < range.largest) && !range.has_nan)) {
     refuse(count == 0 ? "The volume has no number."
                       : "All voxels of the volume are " + format_number(range.least) +
                             ": there is nothing to separate. Check the channel, the frame or the "
@@ -212,12 +217,9 @@ double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std:
 }
 
 /// Whether a volume of few values is a mask of phases: in labels, each value has one part only.
-bool are_phases(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
-                const VolumeGeometry& geometry, const SegmentationOptions& options,
+bool are_phases(const std::vector<std::uint16_t>& grey, const VolumeGeometry& geometry,
+                std::size_t values, const SegmentationOptions& options,
                 const Execution& execution) {
-  constexpr std::ptrdiff_t most_phases = 8;
-  const std::ptrdiff_t values =
-      std::count_if(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 0; });
   if (values > most_phases) return false;
   constexpr Label none = std::numeric_limits<Label>::max();
   const std::unique_ptr<LabelVolume> parts =
@@ -232,7 +234,7 @@ bool are_phases(const std::vector<std::uint16_t>& grey, const std::vector<std::u
   });
   const auto large = std::count_if(voxels.begin(), voxels.end(),
                                    [&](std::int64_t count) { return count >= options.smallest; });
-  return large >= 2 * values;
+  return large >= 2 * static_cast<std::ptrdiff_t>(values);
 }
 
 /// Grey values in 16 bits: base + step * grey.
@@ -430,8 +432,10 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }
   if (result.is_flat) {
+    const auto smoothed = static_cast<std::size_t>(
+        std::count_if(counts.all.begin(), counts.all.end(), [](auto count) { return count > 0; }));
     result.is_flat =
-        !are_phases(grey, counts.all, scan.geometry(), options, execution.part(0.5, 0.55));
+        !are_phases(grey, scan.geometry(), smoothed, options, execution.part(0.5, 0.55));
   }
   measure_edges(values, left_out, sizes, counts, peaks, result);
   const std::optional<Phases> phases =
@@ -476,9 +480,14 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double neck,
                                            const Execution& execution) {
-  Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.9));
+  Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.8));
   mask = {};
   join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
+  if (basins.step > 0.0) {
+    straighten_walls(basins.labels, basins.distances, geometry.counts,
+                     geometry.axes.colwise().norm().transpose() / basins.step,
+                     execution.part(0.8, 0.9));
+  }
   basins.distances = {};
   return parts_of(std::make_unique<HeldVolume>(geometry, std::move(basins.labels)), 0,
                   execution.part(0.9, 1.0));
@@ -530,6 +539,41 @@ auto with_memory(const VoxelCounts& counts, const Work& work) {
   }
 }
 
+/// Returns the material of a mask, without what is left out, to which the wall of a container is
+/// added; sets `threshold`.
+std::vector<std::uint8_t> material_of_mask(LabelVolume& scan, const GreyRange& range,
+                                           std::vector<std::uint8_t>& left_out,
+                                           const SegmentationOptions& options, Segmentation& result,
+                                           const Execution& execution) {
+  const std::size_t values = range.values.size();
+  const auto phases = static_cast<std::size_t>(options.phases.value_or(1));
+  if (phases > 1 && phases >= values) {
+    refuse(values <= 2 ? "The volume is a mask of two values, so one phase is material. Leave " +
+                             mention("phases") + " out."
+                       : "The volume is a mask of " + std::to_string(values) +
+                             " values, so at most " + std::to_string(values - 1) +
+                             " can be material. Give a lower " + mention("phases") + ".");
+  }
+  result.threshold =
+      options.threshold.value_or(range.values[options.dark ? phases - 1 : values - phases]);
+  std::vector<std::uint8_t> mask = mask_of(scan, execution, [&](Label code) {
+    const float value = grey_value(code);
+    return options.dark ? value <= result.threshold : value >= result.threshold;
+  });
+  if (result.is_flat) {
+    result.is_flat = !are_phases(short_grey(scan, range, left_out, execution).grey, scan.geometry(),
+                                 values, options, execution);
+  }
+  const auto clear = [&] {
+    for (std::size_t k = 0; k < left_out.size(); ++k) {
+      if (left_out[k] != 0) mask[k] = 0;
+    }
+  };
+  clear();
+  if (leave_out_wall(mask, scan.geometry(), left_out, result, execution)) clear();
+  return mask;
+}
+
 Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
                        const Execution& execution) {
   if (options.threshold) require_in_range(*options.threshold, threshold_option);
@@ -543,38 +587,21 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   require_filters();
   const VolumeGeometry& geometry = scan.geometry();
   scan.read_grey_values();
-  const std::vector<std::uint8_t> outside = not_scanned(scan, execution.part(0.0, 0.05));
+  std::vector<std::uint8_t> outside = not_scanned(scan, execution.part(0.0, 0.05));
   const GreyRange range = range_of(scan, outside, execution.part(0.05, 0.1));
+  const std::size_t values = range.values.size();
+  if (values == 1) outside.clear();
   Segmentation result;
   result.not_scanned = material_count(outside);
   result.is_dark = options.dark;
   result.is_chosen = options.threshold || options.phases;
-  result.is_mask = range.are_two;
-  result.is_flat = !range.are_two && range.equal_neighbours > 0.9;
+  result.is_flat = values > 2 && range.equal_neighbours > 0.9;
+  result.is_mask = values <= 2 || (values <= most_phases && result.is_flat && result.is_chosen);
   result.voxels = voxels_of(geometry.counts);
   std::vector<std::uint8_t> left_out = outside;
-  std::vector<std::uint8_t> mask;
-  const Execution reading = execution.part(0.1, 0.4);
-  if (result.is_mask) {
-    if (options.phases && *options.phases > 1) {
-      refuse("The volume is a mask of two values, so one phase is material. Leave " +
-             mention("phases") + " out.");
-    }
-    result.threshold = options.threshold.value_or(options.dark ? range.least : range.largest);
-    mask = mask_of(scan, reading, [&](Label code) {
-      const float value = grey_value(code);
-      return options.dark ? value <= result.threshold : value >= result.threshold;
-    });
-    const auto clear = [&] {
-      for (std::size_t k = 0; k < left_out.size(); ++k) {
-        if (left_out[k] != 0) mask[k] = 0;
-      }
-    };
-    clear();
-    if (leave_out_wall(mask, geometry, left_out, result, reading)) clear();
-  } else {
-    mask = material_of(scan, range, left_out, options, result, reading);
-  }
+  const auto find_material = result.is_mask ? material_of_mask : material_of;
+  std::vector<std::uint8_t> mask =
+      find_material(scan, range, left_out, options, result, execution.part(0.1, 0.4));
   left_out = {};
   const std::uint64_t open = material_count(mask);
   fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));

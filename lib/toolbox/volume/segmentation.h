@@ -64,7 +64,7 @@ struct Segmentation {
   /// parts have the number of grains plus 1. Readable repeatedly, see LabelVolume.
   std::unique_ptr<LabelVolume> labels;
   std::vector<LabelExtent> grains;  ///< by their labels
-  bool is_mask = false;             ///< two values only: not smoothed, no threshold computed
+  bool is_mask = false;             ///< not smoothed, no threshold computed; see segment
   bool is_flat = false;             ///< most neighbours are equal, as in a volume of labels
   bool is_dark = false;             ///< as in the options
   bool is_chosen = false;           ///< the options have a threshold or a number of phases
@@ -94,8 +94,10 @@ struct Segmentation {
 /// container_wall.h), unless a threshold is given the surface of each grain half way to its own
 /// grey value (see grain_plateaus.h), holes in the material filled, touching parts separated. A
 /// volume of two values is a mask; the larger value is the material, or the smaller one if it is
-/// dark. Throws Error: InvalidInput for options out of range, without ITK, for a volume of one
-/// value, and if no grain is left; Cancelled, and what the volume throws.
+/// dark. So is one of a value and NaN, which is void, and one of up to eight values, most of them
+/// equal to their neighbours', if the options have a threshold or a number of phases. Throws Error:
+/// InvalidInput for options out of range, without ITK, for a volume of one value, and if no grain
+/// is left; Cancelled, and what the volume throws.
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
                      const Execution& execution);
 

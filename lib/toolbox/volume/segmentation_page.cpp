@@ -245,8 +245,8 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                           ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
                           : "darker than the rest. Give " + mention("dark", "true") + "."));
   }
-  // Who chose the material has seen the peaks.
-  const std::size_t peaks = segmentation.is_chosen ? 0 : segmentation.peaks.size();
+  // Who chose the material has seen the peaks. Of inverted grains they are not the grains'.
+  const std::size_t peaks = segmentation.is_chosen || is_inverted ? 0 : segmentation.peaks.size();
   if (peaks == 1) {
     doubts.push_back("The grey values have one peak, at " +
                      format_number(segmentation.peaks[0], 4) +

@@ -528,9 +528,10 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
     const TiffFile file(slices.paths[k]);
     const std::int64_t count = file.pages();
     if (count > 1) {
-      refuse_volume(slices.paths[k], "has " + std::to_string(count) +
-                                         " pages, but a slice in a folder is a file with one page. "
-                                         "Give this file instead of the folder.");
+      refuse_volume(slices.paths[k],
+                    "has " + std::to_string(count) +
+                        " pages, but a folder is one volume, whose files are slices of "
+                        "one page. Save all slices in one file, or one in each.");
     }
     const Page here = page_of(file);
     if (!(here == page)) {

@@ -4,12 +4,21 @@
 #include <cmath>
 
 #include "toolbox/volume/volume_error.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
   if (choice.array.empty()) return;
   refuse_volume(path, "has a format with only one array. Leave " + mention("array") + " out.");
+}
+
+void require_spacing(const Vector3& spacing, const VolumeChoice& choice, const std::string& path) {
+  if (choice.voxel_size || (spacing.allFinite() && spacing.minCoeff() > 0.0)) return;
+  refuse_volume(path, "has the spacing " + format_number(spacing[0]) + ", " +
+                          format_number(spacing[1]) + ", " + format_number(spacing[2]) +
+                          ", but the lengths of a voxel are above 0. Correct it, or give " +
+                          mention("voxel-size") + ".");
 }
 
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,

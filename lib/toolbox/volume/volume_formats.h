@@ -50,6 +50,10 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
 /// Throws Error(InputOutput), naming the file, if an array was chosen in a format with only one.
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path);
 
+/// Throws Error(InputOutput), naming the file, for lengths of voxels that are not finite and above
+/// 0, unless a voxel size was chosen.
+void require_spacing(const Vector3& spacing, const VolumeChoice& choice, const std::string& path);
+
 /// Sets the lattice of a file whose voxels have their centres at `origin` + `axes` (i, j, k). If a
 /// voxel size was chosen, sets the lattice at its multiples, along x, y and z in the order of
 /// geometry.order. Throws Error(InputOutput), naming the file, if voxels have no volume.

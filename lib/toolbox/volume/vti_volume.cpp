@@ -315,6 +315,7 @@ VolumeGeometry geometry_of(const VtiHeader& header, bool of_cells, const VolumeC
   }
   const Vector3 first(static_cast<double>(extent[0]), static_cast<double>(extent[2]),
                       static_cast<double>(extent[4]));
+  require_spacing({spacing[0], spacing[1], spacing[2]}, choice, path);
   const double to_centre = of_cells ? 0.5 : 0.0;
   set_lattice(
       geometry, axes,
