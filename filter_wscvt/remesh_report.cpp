@@ -90,7 +90,8 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
   lines.push_back(seconds_line(seconds));
   lines.insert(lines.end(), notes.begin(), notes.end());
   std::vector<std::string> warnings;
-  for (const Sentence& warning : result.warnings) warnings.push_back(shown_words(warning));
+  // The table above has a row of Sdq.
+  for (const Sentence& warning : report_warnings(result)) warnings.push_back(shown_words(warning));
   return as_log(warnings, lines, verdict_line(result));
 }
 

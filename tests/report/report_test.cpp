@@ -770,6 +770,32 @@ TEST(ReportSummary, IsShortAndNarrowAlsoForARepairedScan) {
   for (const std::string& line : lines) EXPECT_LE(line.size(), 80U) << line;
 }
 
+TEST(ReportSummary, SdqOfItsClipIsNoFaultOfTheRemesh) {
+  RemeshResult result = remesh_of(test::lumpy(4), 300);
+  result.warnings.clear();
+  const auto errors = [&] {
+    std::string text;
+    for (const std::string& line : summary_lines(result)) text += line + "\n";
+    return text;
+  };
+  EXPECT_EQ(errors().find("not reliable"), std::string::npos);
+  EXPECT_TRUE(report_warnings(result).empty());
+  result.scan.sdq_half_clip = 1.04 * result.scan.sdq;
+  result.scan.sdq_clipped_fraction = 0.09;
+  EXPECT_EQ(verdict_line(result).substr(verdict_line(result).size() - 6), ": good");
+  EXPECT_NE(errors().find("Sdq not reliable"), std::string::npos) << errors();
+  // Whoever shows Sdq tells of it.
+  const std::vector<Sentence> told = report_warnings(result);
+  ASSERT_EQ(told.size(), 1U);
+  for (const char* part :
+       {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}) {
+    EXPECT_NE(told[0].text().find(part), std::string::npos) << told[0].text();
+  }
+  EXPECT_NE(report_json(result).find("is not reliable"), std::string::npos);
+  EXPECT_NE(report_csv(result).find("is not reliable"), std::string::npos);
+  EXPECT_EQ(report_lines(result).back().rfind("Warning     Sdq", 0), 0U);
+}
+
 TEST(ReportSummary, VerdictIsGoodWithoutWarningsOnly) {
   RemeshResult result = remesh_of(test::lumpy(4), 300);
   result.warnings.clear();

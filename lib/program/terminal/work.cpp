@@ -76,7 +76,7 @@ void Work::print_log(const RemeshResult& result, bool verbose) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
   lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
   lines.push_back(verdict_line(result));
-  print(result.warnings, lines);
+  print(verbose ? report_warnings(result) : result.warnings, lines);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
