@@ -156,8 +156,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
        {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
         "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --conforming --edge-length 4"},
        "OUT gets one mesh per label or body, such as 12.ply, and labels.csv or bodies.csv "
-       "with the\nstate of each. The same call continues after an interruption. wscvt "
-       "batch remeshes the\ngrains of a volume, and with --parts the bodies of a mesh.",
+       "with the state of each. The same call continues after an interruption. wscvt "
+       "batch remeshes the grains of a volume, and with --parts the bodies of a mesh.",
        true,
        true});
   add_file_argument(

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "program/call/exit_code.h"
@@ -81,7 +80,7 @@ void Work::print_log(const RemeshResult& result, bool verbose) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
+    print_error("Warning: " + warning);
   }
 }
 
@@ -89,7 +88,7 @@ void print(const std::vector<std::string>& lines, bool quiet) {
   if (quiet) return;
   std::string text;
   for (const std::string& line : lines) text += readable(line) + "\n";
-  write_file("/dev/stdout", text);
+  write_file("/dev/stdout", shown_on(Stream::Output, text));
 }
 
 ReportOrigin origin_of(const std::string& source) { return {source, today()}; }
@@ -136,13 +135,13 @@ JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const Job
   host.is_cancelled = [] { return noted_signal() != 0; };
   host.failed = [&](const std::string& grain, const std::string& error) {
     line.clear();
-    std::fprintf(stderr, "Failed: %s: %s\n", readable(grain, "").c_str(), readable(error).c_str());
+    print_error("Failed: " + readable(grain, "") + ": " + error);
   };
   JobEnd end = run(host);
   line.clear();
   if (end.was_cancelled()) {
-    std::fprintf(stderr, "Cancelled after %zu of %zu grains. %s\n", end.done, end.count,
-                 end.when_stopped.c_str());
+    print_error("Cancelled after " + std::to_string(end.done) + " of " + std::to_string(end.count) +
+                " grains. " + end.when_stopped);
   }
   return end;
 }
