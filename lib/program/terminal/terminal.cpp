@@ -180,8 +180,11 @@ std::string broken(std::string_view line, std::size_t width) {
   const bool is_row = text != std::string_view::npos &&
                       (!has_topic || behind_gap(line, text) != std::string_view::npos);
   if (is_row) return std::string(line);
-  const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
-  return wrapped(line, width, has_topic && 2 * text < width ? text : begin + 2);
+  if (!has_topic || 2 * text > width) {
+    return wrapped(line, width, std::min(line.find_first_not_of(' '), line.size()) + 2);
+  }
+  std::string result = wrapped(std::string(text, ' ').append(line.substr(text)), width, text);
+  return result.replace(0, text, line.substr(0, text));
 }
 
 }  // namespace
