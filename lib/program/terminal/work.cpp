@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include "program/call/exit_code.h"
 #include "program/terminal/terminal.h"
@@ -61,6 +62,15 @@ void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::s
   program::print(lines, quiet_);
 }
 
+void Work::print_made(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
+                      const std::string& folder) {
+  for (std::string& line :
+       end_of_log(folder.empty() ? written_ : std::vector<std::string>{folder}, begin_)) {
+    lines.push_back(std::move(line));
+  }
+  print(warnings, lines);
+}
+
 void Work::print_log(const RemeshResult& result, bool verbose) {
   std::vector<std::string> lines = verbose ? report_lines(result) : summary_lines(result);
   // Warnings are printed once, before.
@@ -68,14 +78,20 @@ void Work::print_log(const RemeshResult& result, bool verbose) {
       std::remove_if(lines.begin(), lines.end(),
                      [](const std::string& line) { return line.rfind("Warning ", 0) == 0; }),
       lines.end());
-  for (const std::string& path : written_) {
-    lines.push_back((&path == &written_.front() ? "Files       \"" : "            \"") + path +
-                    "\"");
-  }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
-  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  for (std::string& line : end_of_log(written_, begin_)) lines.push_back(std::move(line));
   lines.push_back(verdict_line(result));
   print(verbose ? report_warnings(result) : result.warnings, lines);
+}
+
+std::vector<std::string> end_of_log(const std::vector<std::string>& written,
+                                    std::chrono::steady_clock::time_point begin) {
+  std::vector<std::string> lines;
+  for (const std::string& path : written) {
+    lines.push_back((lines.empty() ? "Files       \"" : "            \"") + path + "\"");
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  return lines;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
