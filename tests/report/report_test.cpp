@@ -330,6 +330,19 @@ TEST(Report, MassTableHoldsTheWholeTensor) {
   EXPECT_EQ(rows[1][2], "7, 8, 9");
 }
 
+TEST(Report, MassTableHasNoRounding) {
+  NamedMass body{"one", {}};
+  body.mass.volume = 4.18879;  // of radius 1
+  body.mass.centroid = Vector3(8e-17, -1.7e-11, 1e-6);
+  body.mass.inertia_tensor << 2, 1e-17, -1e-12, 1e-17, 2, 1e-7, -1e-12, 1e-7, 2;
+  body.mass.principal_moments = Vector3(2, 2, 2);
+  body.mass.principal_axes = Eigen::Quaterniond(0.5, 2e-11, -0.5, 1e-8);
+  const auto rows = mass_rows({body});
+  EXPECT_EQ(rows[1][1], "0, 0, 1e-06");
+  EXPECT_EQ(rows[3][1], "0, 0, 1e-07");
+  EXPECT_EQ(rows[5][1], "0.5, 0, -0.5, 1e-08");
+}
+
 // With six digits a grain of 2 would be 10 from its place.
 TEST(Report, MassTableTellsThePlaceOfAGrainFarFromTheOrigin) {
   NamedMass body{"one", {}};
