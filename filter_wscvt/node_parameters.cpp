@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "node_parameters.h"
 
+#include <cmath>
 #include <string>
 
 #include "wscvt/base/error.h"
@@ -194,14 +195,20 @@ void request_quality(RemeshOptions& options, VertexQuality quality) {
   if (quality == VertexQuality::OriginalDistance) options.measures.distances = true;
 }
 
-const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality) {
+std::vector<double> quality_values(const RemeshResult& result, VertexQuality quality) {
   switch (quality) {
     case VertexQuality::Curvature:
       return result.curvatures;
     case VertexQuality::CellArea:
       return result.cell_areas;
-    case VertexQuality::OriginalDistance:
-      return result.vertex_distances;
+    case VertexQuality::OriginalDistance: {
+      const double least = 1e-9 * result.input.equivalent_radius;
+      std::vector<double> distances = result.vertex_distances;
+      for (double& distance : distances) {
+        if (std::abs(distance) < least) distance = 0.0;
+      }
+      return distances;
+    }
     case VertexQuality::RadialDistance:
       break;
   }

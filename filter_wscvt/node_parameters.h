@@ -55,8 +55,10 @@ namespace wscvt::filter {
 /// Requests the results that a vertex quality needs.
 void request_quality(RemeshOptions& options, VertexQuality quality);
 
-/// Returns the chosen quality, one value per vertex of the result.
-const std::vector<double>& quality_values(const RemeshResult& result, VertexQuality quality);
+/// Returns the chosen quality, one value per vertex of the result. Distances to the scan below 1e-9
+/// of the equivalent radius are 0: the node is on the scan. The host's coordinates have single
+/// precision, 1e-7 of their size, and what is smaller by a hundred is rounding.
+std::vector<double> quality_values(const RemeshResult& result, VertexQuality quality);
 
 /// Short name of the node distribution, for labels: Constant, WSCVT-D, Fibonacci lattice, ...
 std::string nodes_name(const RemeshOptions& options);

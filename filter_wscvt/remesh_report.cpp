@@ -6,6 +6,7 @@
 #include <map>
 
 #include "log_text.h"
+#include "node_parameters.h"
 #include "shown_words.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
@@ -73,6 +74,17 @@ std::vector<std::string> short_table(const RemeshResult& result) {
   return log_table(cells);
 }
 
+/// Returns where the nodes are, by their signed distances from the scan.
+std::string nodes_line(const std::vector<double>& distances) {
+  const auto [lowest, highest] = std::minmax_element(distances.begin(), distances.end());
+  const auto place = [](double distance) {
+    if (distance == 0.0) return std::string("on the scan");
+    return format_number(distance, 3) + (distance < 0.0 ? " (inside)" : " (outside)");
+  };
+  if (*lowest == *highest) return "All nodes are " + place(*lowest);
+  return "Nodes are from " + place(*lowest) + " to " + place(*highest);
+}
+
 }  // namespace
 
 std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
@@ -82,15 +94,13 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
   if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
   append_topics(lines, report, {"Node count"});
   if (!result.vertex_distances.empty()) {
-    const auto [inside, outside] =
-        std::minmax_element(result.vertex_distances.begin(), result.vertex_distances.end());
-    lines.push_back("Nodes are from " + format_number(*inside, 3) + " (inside) to " +
-                    format_number(*outside, 3) + " (outside)");
+    lines.push_back(nodes_line(quality_values(result, VertexQuality::OriginalDistance)));
   }
   lines.push_back(seconds_line(seconds));
   lines.insert(lines.end(), notes.begin(), notes.end());
   std::vector<std::string> warnings;
-  for (const Sentence& warning : result.warnings) warnings.push_back(shown_words(warning));
+  // The table above has a row of Sdq.
+  for (const Sentence& warning : report_warnings(result)) warnings.push_back(shown_words(warning));
   return as_log(warnings, lines, verdict_line(result));
 }
 

@@ -32,11 +32,12 @@ namespace program = wscvt::program;
 
 int run(int argc, char** argv) {
   CLI::App app{"Remesh scanned grains to an exact number of nodes, and measure them.", "wscvt"};
-  app.formatter(std::make_shared<program::HelpFormatter>());
+  app.formatter(std::make_shared<program::HelpFormatter>(program::HelpFormatter::Extent::Brief,
+                                                         program::help_width()));
   app.allow_windows_style_options(false);  // "/scans/sand.ply" is a file on Windows too
   app.footer(
       "\"wscvt SCAN OUTPUT\" means \"wscvt remesh SCAN OUTPUT\". \"wscvt FOLDER OUT\" and "
-      "\"wscvt SCANS... OUT\"\nmean \"wscvt batch\". Help for a command:\n"
+      "\"wscvt SCANS... OUT\" mean \"wscvt batch\". Help for a command:\n"
       "  wscvt help remesh\n"
       "  wscvt remesh --help-all\n" +
       program::exit_code_text(true));
@@ -76,13 +77,14 @@ int run(int argc, char** argv) {
     std::reverse(call.words.begin(), call.words.end());  // order required by CLI11
     app.parse(call.words);
     if (!call.notice.empty()) {
-      std::fputs((wscvt::readable(call.notice) + "\n").c_str(), stderr);
+      program::print_error(call.notice);
     }
   } catch (const CLI::ParseError& error) {
     std::ostringstream said;
     const int code = app.exit(error, std::cout, said);
     const std::string better = program::refusal_text(app, error);
-    std::fputs(wscvt::readable(better.empty() ? said.str() : better + "\n").c_str(), stderr);
+    const std::string sentence = wscvt::readable(better.empty() ? said.str() : better + "\n");
+    std::fputs(program::shown_on(program::Stream::Error, sentence).c_str(), stderr);
     if (code != 0) return program::WrongArguments;
     if (!std::cout.flush()) throw std::runtime_error("The help could not be written.");
     return program::Done;
@@ -101,16 +103,15 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const program::WrongCall& error) {
-    std::fprintf(stderr, "%s\n", wscvt::readable(error.what()).c_str());
+    program::print_error(error.what());
     return program::WrongArguments;
   } catch (const std::bad_alloc&) {
-    std::fputs(
+    program::print_error(
         "There is not enough memory for this call. Allow more memory (ulimit -v), simplify the "
-        "mesh, or use fewer nodes.\n",
-        stderr);
+        "mesh, or use fewer nodes.");
     return program::Failed;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", wscvt::readable(error.what()).c_str());
+    program::print_error(error.what());
     // Exit code that a shell gives if the signal ends a program.
     const int signal = program::noted_signal();
     return signal == 0 ? program::Failed : 128 + signal;

@@ -16,6 +16,13 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+TEST(TextFormat, ValueAboveALimitDiffersFromIt) {
+  EXPECT_EQ(format_above(5.0, 28.8243), "28.8");
+  EXPECT_EQ(format_above(28.8, 28.8243), "28.82");
+  EXPECT_EQ(format_above(28.81, 28.8243), "28.82");
+  EXPECT_EQ(format_above(28.824, 28.8243), "28.8243");
+}
+
 TEST(TextFormat, Numbers) {
   EXPECT_EQ(format_number(1234.5678), "1234.57");
   EXPECT_EQ(format_number(1234.5678, 3), "1.23e+03");

@@ -92,6 +92,9 @@ TEST(ConvexParts, OfTwoBoxesAreTwoBoxesInAnyPose) {
     const PartsMeasures measures = measure_parts(parts, body);
     EXPECT_LT(measures.largest_distance, 1e-9);
     EXPECT_NEAR(measures.excess_percent(), 0.0, 1e-6);
+    PartsMeasures rounded = measures;
+    rounded.parts_volume = (1.0 + 6e-15) * rounded.grain_volume;
+    EXPECT_EQ(rounded.excess_percent(), 0.0) << "rounding";
     EXPECT_EQ(measures.shared_volume, 0.0);
   }
 }

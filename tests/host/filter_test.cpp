@@ -26,6 +26,7 @@
 #include "host.h"
 #include "log_text.h"
 #include "mesh_conversion.h"
+#include "node_parameters.h"
 #include "parameters.h"
 #include "programs.h"
 #include "remesh_filter.h"
@@ -821,6 +822,32 @@ TEST(Filter, LogOfARemeshEndsByItsVerdict) {
     return line.text.find("Sdq") != std::string::npos;
   };
   EXPECT_TRUE(std::any_of(good.begin(), good.end(), names_sdq));
+}
+
+TEST(Filter, TellsWhereTheNodesAreByTheSignOfTheirDistances) {
+  RemeshOptions options;
+  options.node_count = 200;
+  RemeshResult result = remesh(grain(), options, Execution(1));
+  const double radius = result.input.equivalent_radius;
+  const auto line = [&](double lowest, double highest) {
+    result.vertex_distances.assign(200, lowest);
+    result.vertex_distances.back() = highest;
+    for (const filter::LogLine& one : filter::log_lines(result, 0.1)) {
+      if (one.text.find("odes are ") != std::string::npos) return one.text;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(line(-0.25, 0.5), "Nodes are from -0.25 (inside) to 0.5 (outside)");
+  EXPECT_EQ(line(0.25, 0.5), "Nodes are from 0.25 (outside) to 0.5 (outside)");
+  EXPECT_EQ(line(-0.5, -0.25), "Nodes are from -0.5 (inside) to -0.25 (inside)");
+  EXPECT_EQ(line(-1e-16 * radius, 0.5), "Nodes are from on the scan to 0.5 (outside)");
+  EXPECT_EQ(line(-2.05e-16 * radius, 2.14e-16 * radius), "All nodes are on the scan");
+  // Rounding has no color: white is 0.
+  const std::vector<double> none(200, 0.0);
+  EXPECT_EQ(filter::quality_values(result, filter::VertexQuality::OriginalDistance), none);
+  line(-1e-8 * radius, 1e-8 * radius);
+  EXPECT_EQ(filter::quality_values(result, filter::VertexQuality::OriginalDistance),
+            result.vertex_distances);
 }
 
 TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {

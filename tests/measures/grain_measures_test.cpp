@@ -93,6 +93,22 @@ TEST(GrainMeasures, TellWhatTheEdgesAreTooLongFor) {
   EXPECT_EQ(count_of(sentences, "may be form"), 1);
 }
 
+TEST(GrainMeasures, TellWhatIsTrueOfBothGrainsOnce) {
+  const auto told = [](const std::string& other, const IndexedMesh& mesh) {
+    return remarks(measure_grain({"body", test::box(1, 1, 1)}, NamedMesh{other, mesh},
+                                 DetailedOptions(), Execution(1)));
+  };
+  const std::string edges = "are too long to measure roughness";
+  for (const char* other : {"other", "body"}) {
+    const std::vector<Sentence> both = told(other, test::box(1, 1, 1));
+    EXPECT_EQ(count_of(both, edges), 1);
+    EXPECT_EQ(count_of(both, "The same is true of 'other'.") > 0, other[0] == 'o');
+  }
+  // Other numbers are other sentences.
+  const std::vector<Sentence> two = told("other", test::box(1, 1, 2));
+  EXPECT_EQ(count_of(two, edges), 2);
+}
+
 TEST(GrainMeasures, TellWhereSdqIsWhatItsClipSays) {
   const auto told = [](const IndexedMesh& mesh) {
     return remarks(measure_grain({"body", mesh}, {}, DetailedOptions(), Execution(1)));

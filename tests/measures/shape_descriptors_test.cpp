@@ -208,6 +208,9 @@ TEST(ShapeDescriptors, RelativeError) {
   EXPECT_NEAR(relative_error_percent(1.1, 1.0), 10.0, 1e-12);
   EXPECT_NEAR(relative_error_percent(0.5, 1.0), -50.0, 1e-12);
   EXPECT_EQ(relative_error_percent(0.0, 0.0), 0.0);
+  // Rounding is no error.
+  EXPECT_EQ(relative_error_percent(1.0 - 1.2e-15, 1.0), 0.0);
+  EXPECT_NEAR(relative_error_percent(1.0 + 1e-10, 1.0), 1e-8, 1e-12);
 }
 
 TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {

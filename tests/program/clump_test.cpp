@@ -29,6 +29,10 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
       "r.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_NE(outcome.output.find("first contact"), std::string::npos);
+  EXPECT_NE(outcome.output.find("Files       \"c.csv\"\n            \"c.mclump\"\n"),
+            std::string::npos)
+      << outcome.output;
+  EXPECT_NE(outcome.output.find("\nTime        "), std::string::npos) << outcome.output;
   EXPECT_TRUE(exists("c.mclump/Inertia/TOI.txt"));
   EXPECT_NE(content("c.molecule").find("density 3\n"), std::string::npos);
   EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);

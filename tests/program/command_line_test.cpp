@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The program as a whole: files in and out, exit codes, signals, sentences.
+#include <pty.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,11 +9,13 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,8 +30,78 @@ namespace fs = std::filesystem;
 
 class CommandLine : public test::ProgramRun {
  protected:
+  /// What the program shows on a terminal of so many columns, without carriage returns.
+  std::string shown(std::vector<std::string> words, unsigned short columns,
+                    const char* variable = nullptr) const {
+    winsize size{};
+    size.ws_row = 40;
+    size.ws_col = columns;
+    std::vector<char*> argv = {const_cast<char*>("wscvt")};
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
+    if (child == 0) {
+      if (chdir(folder_.c_str()) != 0) _exit(99);
+      if (variable == nullptr) unsetenv("COLUMNS");
+      if (variable != nullptr) setenv("COLUMNS", variable, 1);
+      execv(WSCVT_PROGRAM, argv.data());
+      _exit(98);
+    }
+    std::string text;
+    std::array<char, 4096> bytes{};
+    for (ssize_t count = 0; (count = read(terminal, bytes.data(), bytes.size())) > 0;) {
+      text.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+    EXPECT_EQ(waitpid(child, nullptr, 0), child);
+    close(terminal);
+    text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
+    return text;
+  }
+
+  static std::size_t widest(const std::string& text) {
+    std::size_t most = 0;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) most = std::max(most, line.size());
+    return most;
+  }
+
   const std::string sand_ = "'" WSCVT_MESHES_DIR "/sand_7228.ply'";
 };
+
+TEST_F(CommandLine, HelpIsAsWideAsTheTerminal) {
+  for (const char* command : {"remesh", "clump", "extract"}) {
+    SCOPED_TRACE(command);
+    for (const auto& [columns, width] : {std::pair(40, 60), {60, 60}, {80, 80}, {200, 120}}) {
+      const std::string help = shown({command, "--help-all"}, static_cast<unsigned short>(columns));
+      EXPECT_LE(widest(help), static_cast<std::size_t>(width)) << help;
+      EXPECT_GE(widest(help), static_cast<std::size_t>(width) - 10) << help;
+    }
+    EXPECT_LE(widest(run(std::string(command) + " --help-all").output), 100U);
+    EXPECT_LE(widest(shown({command, "--help"}, 200, "70")), 70U);
+  }
+  // A call that is broken runs when it is copied.
+  EXPECT_NE(shown({"clump", "--help"}, 70).find(" \\\n      "), std::string::npos);
+}
+
+TEST_F(CommandLine, SentencesAreBrokenOnATerminalOnly) {
+  // A cube without a side.
+  std::ofstream(folder_ / "open.obj")
+      << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+         "f 1 3 2\nf 1 4 3\nf 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\n"
+         "f 4 1 5\nf 4 5 8\n";
+  const Outcome piped = run("remesh open.obj x.ply -n 100");
+  EXPECT_EQ(std::count(piped.errors.begin(), piped.errors.end(), '\n'), 1) << piped.errors;
+  EXPECT_GT(widest(piped.errors), 150U);
+  for (const auto& [columns, width] : {std::pair(50, 50), {80, 80}, {200, 80}, {0, 80}}) {
+    const std::string text = shown({"remesh", "open.obj", "x.ply", "-n", "100", "-q"},
+                                   static_cast<unsigned short>(columns));
+    EXPECT_LE(widest(text), static_cast<std::size_t>(width)) << text;
+    EXPECT_GE(widest(text), static_cast<std::size_t>(width) - 12) << text;
+    // The words are the same.
+    EXPECT_EQ(std::regex_replace(text, std::regex("\n +"), " "), piped.errors);
+  }
+}
 
 TEST_F(CommandLine, RemeshesToTheExactCount) {
   const Outcome outcome = run(sand_ + " remesh.ply -n 300 --report report.json");

@@ -31,6 +31,8 @@ TEST_F(FragmentCommand, WritesFragmentsAndTheirTables) {
   const Outcome outcome = run("fragment grain.ply -k 6 -o deep/out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.rfind("Fragments: 6, volumes ", 0), 0U) << outcome.output;
+  EXPECT_NE(outcome.output.find("\nFiles       \"deep/out\"\nTime        "), std::string::npos)
+      << outcome.output;
   const auto rows = test::csv_records(content("deep/out/fragments.csv"));
   ASSERT_EQ(rows.size(), 7U);
   double sum = 0.0;

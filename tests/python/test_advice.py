@@ -266,7 +266,7 @@ ALL = [
            "describe v.npy s.npy -o out", "Leave the scan out", "describe v.npy -o out", "contact"),
     # Meshes
     Advice("repaired area", mesh("s.ply", change=without_a_cap(0.1)), "s.ply r.ply -n 100",
-           "Raise --max-repaired-area above ([0-9.]+) %", "s.ply r.ply -n 100 --max-repaired-area 50", "100 nodes", gone="x^"),
+           "Raise (--max-repaired-area) to ([0-9.]+) %", "s.ply r.ply -n 100 \\1 \\2", "100 nodes", gone="x^"),
     Advice("shrink-wrap", mesh("s.ply", change=without_a_cap(0.02)), "s.ply r.ply -n 100 --max-repaired-area 0.5", "by (--shrink-wrap [0-9.]+)",
            "s.ply r.ply -n 100 \\1", "100 nodes", gone="x^"),
     Advice("points", points("s.xyz"), "s.xyz r.ply -n 100", "build a surface from them: (--points)", "s.xyz r.ply -n 100 \\1",

@@ -474,7 +474,9 @@ IndexedMesh bent_rod() {
 
 TEST(Remesh, RefusesAnOverhangAboveTheLimit) {
   RemeshOptions options = options_of(200, Weighting::Area);
-  expect_refused(mushroom(), options, ErrorCode::NotStarShaped, "Use --method on-scan");
+  expect_refused(mushroom(), options, ErrorCode::NotStarShaped,
+                 "Use --method on-scan. It accepts closed grains with overhangs, and with up to 50 "
+                 "handles.");
   options.method = OnScanOptions();  // the advice
   expect_closed(remesh(mushroom(), options, Execution(1)), 200);
 }

@@ -84,30 +84,20 @@ TEST(RemeshWarnings, ThoseOfTheScanLeaveOutTheRemesh) {
   result.input.genus = 1;
   on_scan(result).handles.kept = 1;
   result.remesh.area = 5.0;
-  result.scan.sdq = 0.5;
-  result.scan.sdq_half_clip = 0.52;
   const std::vector<Sentence> all = remesh_warnings(result, "");
   const std::vector<Sentence> of_scan = scan_warnings(result);
   ASSERT_EQ(of_scan.size(), 2U);
   EXPECT_NE(of_scan[0].text().find("by its shrink-wrap"), std::string::npos);
   EXPECT_NE(of_scan[1].text().find("1 handle"), std::string::npos);
   EXPECT_TRUE(std::equal(of_scan.begin(), of_scan.end(), all.begin()));
-  EXPECT_EQ(all.size(), 4U);
+  EXPECT_EQ(all.size(), 3U);
 }
 
-TEST(RemeshWarnings, TellAnSdqThatIsWhatItsClipSays) {
-  expect_warnings(
-      {{[](RemeshResult& r) {
-          r.scan.sdq = 0.5;
-          r.scan.sdq_half_clip = 0.52;
-          r.scan.sdq_clipped_fraction = 0.09;
-        },
-        {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}},
-       {[](RemeshResult& r) {
-          r.scan.sdq = 0.5;
-          r.scan.sdq_half_clip = 0.509;
-        },
-        {}}});
+TEST(RemeshWarnings, DoNotTellOfSdqWhichNobodyAskedFor) {
+  RemeshResult result = clean();
+  result.scan.sdq = 0.5;
+  result.scan.sdq_half_clip = 0.52;
+  EXPECT_TRUE(remesh_warnings(result, "").empty());
 }
 
 TEST(RemeshWarnings, NameWhatIsWrongWithTheScan) {

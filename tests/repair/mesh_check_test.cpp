@@ -42,11 +42,10 @@ CheckedMesh check(const IndexedMesh& mesh, int threads = 1) {
 
 /// The limit that a refusal says to raise it above.
 double advised_limit(const std::string& sentence) {
-  const std::string before = "--max-repaired-area above ";
+  const std::string before = "--max-repaired-area to ";
   const std::size_t place = sentence.find(before);
   EXPECT_NE(place, std::string::npos) << sentence;
-  return place == std::string::npos ? 0.0
-                                    : 1.01e-2 * std::stod(sentence.substr(place + before.size()));
+  return place == std::string::npos ? 0.0 : std::stod(sentence.substr(place + before.size()));
 }
 
 /// The sentence of the refusal; empty when the mesh was taken.
@@ -389,8 +388,22 @@ TEST(MeshCheck, RefusesLargeHolesUntilToldToFillThem) {
   const std::string sentence = refusal(mesh);
   expect_mentions(sentence, {"boundary edges around", "(limit 5 %)", "Raise --max-repaired-area"});
   MeshCheckOptions options;
-  options.repaired_area_limit_percent = 100.0 * advised_limit(sentence);
-  EXPECT_LT(options.repaired_area_limit_percent, 36.0);
+  const double advised = advised_limit(sentence);
+  EXPECT_LT(advised, 36.0);
+  // Just below the area, the sentence tells the two apart, and advises the same.
+  options.repaired_area_limit_percent = advised - 0.1;
+  for (const double step : {0.01, 0.001, 1e-4}) {
+    while (!refusal(mesh, options).empty()) options.repaired_area_limit_percent += step;
+    options.repaired_area_limit_percent -= step;
+    const std::string close = refusal(mesh, options);
+    EXPECT_EQ(advised_limit(close), advised) << close;
+    const std::string value = "would change ";
+    const std::string limit = "(limit ";
+    EXPECT_GT(std::stod(close.substr(close.find(value) + value.size())),
+              std::stod(close.substr(close.find(limit) + limit.size())))
+        << close;
+  }
+  options.repaired_area_limit_percent = advised;
   const CheckedMesh checked = check_mesh(mesh, options, Execution(1));
   EXPECT_EQ(bad_edges(checked.mesh), 0U);
   EXPECT_EQ(checked.report.genus, 0);

@@ -330,6 +330,19 @@ TEST(Report, MassTableHoldsTheWholeTensor) {
   EXPECT_EQ(rows[1][2], "7, 8, 9");
 }
 
+TEST(Report, MassTableHasNoRounding) {
+  NamedMass body{"one", {}};
+  body.mass.volume = 4.18879;  // of radius 1
+  body.mass.centroid = Vector3(8e-17, -1.7e-11, 1e-6);
+  body.mass.inertia_tensor << 2, 1e-17, -1e-12, 1e-17, 2, 1e-7, -1e-12, 1e-7, 2;
+  body.mass.principal_moments = Vector3(2, 2, 2);
+  body.mass.principal_axes = Eigen::Quaterniond(0.5, 2e-11, -0.5, 1e-8);
+  const auto rows = mass_rows({body});
+  EXPECT_EQ(rows[1][1], "0, 0, 1e-06");
+  EXPECT_EQ(rows[3][1], "0, 0, 1e-07");
+  EXPECT_EQ(rows[5][1], "0.5, 0, -0.5, 1e-08");
+}
+
 // With six digits a grain of 2 would be 10 from its place.
 TEST(Report, MassTableTellsThePlaceOfAGrainFarFromTheOrigin) {
   NamedMass body{"one", {}};
@@ -768,6 +781,32 @@ TEST(ReportSummary, IsShortAndNarrowAlsoForARepairedScan) {
   EXPECT_NE(line_of(lines, "Repairs"), "");
   EXPECT_LE(lines.size(), 9U);
   for (const std::string& line : lines) EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST(ReportSummary, SdqOfItsClipIsNoFaultOfTheRemesh) {
+  RemeshResult result = remesh_of(test::lumpy(4), 300);
+  result.warnings.clear();
+  const auto errors = [&] {
+    std::string text;
+    for (const std::string& line : summary_lines(result)) text += line + "\n";
+    return text;
+  };
+  EXPECT_EQ(errors().find("not reliable"), std::string::npos);
+  EXPECT_TRUE(report_warnings(result).empty());
+  result.scan.sdq_half_clip = 1.04 * result.scan.sdq;
+  result.scan.sdq_clipped_fraction = 0.09;
+  EXPECT_EQ(verdict_line(result).substr(verdict_line(result).size() - 6), ": good");
+  EXPECT_NE(errors().find("Sdq not reliable"), std::string::npos) << errors();
+  // Whoever shows Sdq tells of it.
+  const std::vector<Sentence> told = report_warnings(result);
+  ASSERT_EQ(told.size(), 1U);
+  for (const char* part :
+       {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}) {
+    EXPECT_NE(told[0].text().find(part), std::string::npos) << told[0].text();
+  }
+  EXPECT_NE(report_json(result).find("is not reliable"), std::string::npos);
+  EXPECT_NE(report_csv(result).find("is not reliable"), std::string::npos);
+  EXPECT_EQ(report_lines(result).back().rfind("Warning     Sdq", 0), 0U);
 }
 
 TEST(ReportSummary, VerdictIsGoodWithoutWarningsOnly) {

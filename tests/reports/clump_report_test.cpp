@@ -43,24 +43,14 @@ bool holds(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(ClumpReport, LinesFitIn80ColumnsAndHoldEachNumberOnce) {
+TEST(ClumpReport, LinesAreFewAndFitIn80Columns) {
   const ClumpResult& clump = shown_clump();
   std::string all;
   for (const std::string& line : clump_lines(clump)) {
     EXPECT_LE(line.size(), 80U) << line;
     all += line + "\n";
   }
-  for (const MassProperties& mass :
-       {mass_properties(clump.scan), clump.united.mass, clump.summed.mass}) {
-    std::vector<double> numbers = {mass.volume, mass.principal_axes.w(), mass.principal_axes.x(),
-                                   mass.principal_axes.y(), mass.principal_axes.z()};
-    for (int i = 0; i < 3; ++i) {
-      EXPECT_TRUE(holds(all, format_coordinate(mass.centroid[i], equivalent_radius(mass.volume))));
-      numbers.push_back(mass.principal_moments[i]);
-      for (int j = i; j < 3; ++j) numbers.push_back(mass.inertia_tensor(i, j));
-    }
-    for (const double number : numbers) EXPECT_TRUE(holds(all, format_number(number))) << all;
-  }
+  EXPECT_LE(std::count(all.begin(), all.end(), '\n'), 11) << all;
   EXPECT_TRUE(holds(all, "6 spheres"));
   ClumpResult one = clump;
   one.spheres.resize(1);
@@ -187,39 +177,6 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInPageAndLog) {
   EXPECT_TRUE(holds(page, "Intersection over union of the volumes: 0.875."));
   EXPECT_EQ(clump_lines(clump)[0], "Scan        1234 vertices, 2464 faces, equivalent radius 4");
   EXPECT_EQ(clump_lines(clump)[1], "Clump       6 spheres, intersection over union 0.875");
-
-  // The log has a number per cell: grain, union, sum.
-  const MassProperties all[] = {mass_properties(clump.scan), clump.united.mass, clump.summed.mass};
-  const auto expect = [&](const std::string& label, const auto& number_of) {
-    std::vector<std::string> row = {label};
-    for (const MassProperties& m : all) {
-      row.push_back(label.rfind("centroid", 0) == 0
-                        ? format_coordinate(number_of(m), equivalent_radius(m.volume))
-                        : format_number(number_of(m)));
-    }
-    EXPECT_EQ(std::count(log.begin(), log.end(), row), 1) << label;
-  };
-  const std::string axes = "xyz";
-  expect("volume, length^3", [](const MassProperties& m) { return m.volume; });
-  for (int i = 0; i < 3; ++i) {
-    expect(std::string("centroid ") + axes[static_cast<std::size_t>(i)] + ", length",
-           [&](const MassProperties& m) { return m.centroid[i]; });
-    expect("principal moment " + std::to_string(i + 1) + ", length^5",
-           [&](const MassProperties& m) { return m.principal_moments[i]; });
-    for (int j = i; j < 3; ++j) {
-      expect(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +
-                 axes[static_cast<std::size_t>(j)] + ", length^5",
-             [&](const MassProperties& m) { return m.inertia_tensor(i, j); });
-    }
-  }
-  expect("principal axes, quaternion w",
-         [](const MassProperties& m) { return m.principal_axes.w(); });
-  expect("principal axes, quaternion x",
-         [](const MassProperties& m) { return m.principal_axes.x(); });
-  expect("principal axes, quaternion y",
-         [](const MassProperties& m) { return m.principal_axes.y(); });
-  expect("principal axes, quaternion z",
-         [](const MassProperties& m) { return m.principal_axes.z(); });
 }
 
 TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {

@@ -2,7 +2,6 @@
 #include "program/arguments/volume_arguments.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -142,10 +141,8 @@ void print_notes(const LabelGrains& grains, const std::string& parts_advice, boo
                 (2 * in_pieces > grains.taken().size() ? " If the numbers are grey values, make "
                                                          "labels of them first, by wscvt segment."
                                                        : "");
-  std::fprintf(stderr,
-               "Warning: %s To make each part a grain, %s. --separate 0.85 also separates grains "
-               "that touch.\n",
-               what.c_str(), parts_advice.c_str());
+  print_warnings({what + " To make each part a grain, " + parts_advice +
+                  ". --separate 0.85 also separates grains that touch."});
 }
 
 bool is_much_left_out(double fraction) {

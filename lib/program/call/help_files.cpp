@@ -186,7 +186,8 @@ ManPage page_of(const CLI::App& app, const CLI::App& program) {
   capitals.pop_back();
   std::string text = ".TH " + capitals + " 1 \"\" \"wscvt " + version() + "\" \"User Commands\"\n";
   text += heading("Name") + roff(name) + " \\- " + roff(app.get_description()) + "\n";
-  const std::string usage = HelpFormatter().make_usage(&app, call);
+  const std::string usage =
+      HelpFormatter(HelpFormatter::Extent::Full, std::string::npos).make_usage(&app, call);
   text += heading("Synopsis") + roff(usage.substr(usage.find(": ") + 2));
   const auto options = [&](const std::string& title, bool is_positional, const auto& is_wanted) {
     std::string entries;

@@ -5,16 +5,19 @@
 #include <sstream>
 #include <utility>
 
+#include "program/terminal/terminal.h"
+
 namespace wscvt::program {
 
 namespace {
 
-/// Returns all paragraphs wrapped, or only the first.
-std::string wrapped_paragraphs(std::string_view text, bool only_first) {
+/// Returns all lines of a text broken at `width`, or only those of the first. `indent` as wrapped.
+std::string wrapped_lines(std::string_view text, std::size_t width, std::size_t indent,
+                          bool only_first = false) {
   std::string result;
   while (true) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    result += wrapped(text.substr(0, end));
+    result += wrapped(text.substr(0, end), width, indent);
     if (only_first || end == text.size()) return result;
     result += '\n';
     text.remove_prefix(end + 1);
@@ -23,21 +26,11 @@ std::string wrapped_paragraphs(std::string_view text, bool only_first) {
 
 }  // namespace
 
-std::string wrapped(std::string_view text, std::size_t width) {
-  std::string result;
-  std::size_t line = 0;  // characters in the last line
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    if (line > 0) {
-      const bool fits = line + 1 + end <= width;
-      result += fits ? ' ' : '\n';
-      line = fits ? line + 1 : 0;
-    }
-    result += text.substr(0, end);
-    line += end;
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return result;
+std::size_t help_width() {
+  constexpr std::size_t narrowest = 60;
+  constexpr std::size_t widest = 120;
+  const std::size_t columns = terminal_columns(Stream::Output);
+  return columns == 0 ? 100 : std::clamp(columns, narrowest, widest);
 }
 
 std::vector<HelpParagraph> help_paragraphs(const CLI::Option& option) {
@@ -71,7 +64,7 @@ std::vector<std::string> listed_values(const CLI::Option& option) {
   return values;
 }
 
-HelpFormatter::HelpFormatter(Extent extent) : extent_(extent) {
+HelpFormatter::HelpFormatter(Extent extent, std::size_t width) : extent_(extent), width_(width) {
   column_width(help_column);
   label("SUBCOMMAND", "COMMAND");
 }
@@ -79,7 +72,7 @@ HelpFormatter::HelpFormatter(Extent extent) : extent_(extent) {
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
                                      CLI::AppFormatMode mode) const {
   if (mode == CLI::AppFormatMode::All && extent_ == Extent::Brief) {
-    return HelpFormatter(Extent::Full).make_help(app, std::move(name), mode);
+    return HelpFormatter(Extent::Full, width_).make_help(app, std::move(name), mode);
   }
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
   // Hidden groups leave their empty lines.
@@ -94,6 +87,37 @@ std::string HelpFormatter::make_group(std::string group, bool is_positional,
                                       std::vector<const CLI::Option*> options) const {
   if (extent_ == Extent::Brief && group == finer_settings) return "";
   return CLI::Formatter::make_group(std::move(group), is_positional, std::move(options));
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  return wrapped_lines(CLI::Formatter::make_description(app), width_, 0);
+}
+
+std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const {
+  return wrapped_lines(CLI::Formatter::make_usage(app, std::move(name)), width_, 2);
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* app) const {
+  std::ostringstream line;
+  CLI::detail::format_help(line, app->get_display_name(true),
+                           wrapped(app->get_description(), width_ - help_column), help_column);
+  return line.str();
+}
+
+std::string HelpFormatter::make_footer(const CLI::App* app) const {
+  std::string text;
+  std::istringstream lines(CLI::Formatter::make_footer(app));
+  for (std::string line; std::getline(lines, line);) {
+    // A call takes a backslash where it is broken, so that it runs when it is copied.
+    const bool is_call = line.rfind("  ", 0) == 0;
+    std::string broken = is_call ? wrapped(line, width_ - 2, 6) : wrapped(line, width_);
+    for (std::size_t at = broken.find('\n'); is_call && at != std::string::npos;
+         at = broken.find('\n', at + 3)) {
+      broken.insert(at, " \\");
+    }
+    text += broken + "\n";
+  }
+  return text;
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
@@ -126,7 +150,8 @@ std::string HelpFormatter::make_option_usage(const CLI::Option* option) const {
 }
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
-  return wrapped_paragraphs(option->get_description(), extent_ == Extent::Brief);
+  return wrapped_lines(option->get_description(), width_ - help_column, 0,
+                       extent_ == Extent::Brief);
 }
 
 }  // namespace wscvt::program

@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +19,9 @@ inline constexpr int help_column = 30;
 /// Heading of the options that only --help-all shows.
 inline constexpr const char* finer_settings = "Advanced options";
 
-/// Breaks a text between words into lines of `width` characters. The default fits beside the names
-/// on a line of 100 characters.
-std::string wrapped(std::string_view text, std::size_t width = 100 - help_column);
+/// Returns the width of the help: the terminal's, between 60 and 120 characters, or 100 if the
+/// standard output is no terminal.
+std::size_t help_width();
 
 /// A paragraph of an option's description.
 struct HelpParagraph {
@@ -38,12 +39,16 @@ std::vector<std::string> listed_values(const CLI::Option& option);
 class HelpFormatter : public CLI::Formatter {
  public:
   enum class Extent { Brief, Full };
-  explicit HelpFormatter(Extent extent = Extent::Brief);
+  explicit HelpFormatter(Extent extent = Extent::Brief, std::size_t width = 100);
 
   std::string make_help(const CLI::App* app, std::string name,
                         CLI::AppFormatMode mode) const override;
   std::string make_group(std::string group, bool is_positional,
                          std::vector<const CLI::Option*> options) const override;
+  std::string make_description(const CLI::App* app) const override;
+  std::string make_usage(const CLI::App* app, std::string name) const override;
+  std::string make_subcommand(const CLI::App* app) const override;
+  std::string make_footer(const CLI::App* app) const override;
   std::string make_option(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_name(const CLI::Option* option, bool is_positional) const override;
   std::string make_option_opts(const CLI::Option* option) const override;
@@ -52,6 +57,7 @@ class HelpFormatter : public CLI::Formatter {
 
  private:
   Extent extent_;
+  std::size_t width_;
 };
 
 // Descriptions of options, with one or more paragraphs. HelpFormatter breaks their lines.

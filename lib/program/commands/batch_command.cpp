@@ -56,7 +56,7 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
        "Remesh the grains of a sample and write a table and a summary",
        {"scans -o out -n 500 --method as-published",
         "'scans/*.stl' @more.txt -o other --format stl", "scans -o out --shard 1/2"},
-       "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. After an\n"
+       "OUT gets a mesh per grain, grains.csv, shape.csv, summary.html and summary.json. After an "
        "interruption, the same call continues the batch.",
        true,
        true});

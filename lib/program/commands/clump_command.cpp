@@ -140,7 +140,7 @@ int run(const ClumpArguments& arguments) {
       write_report(path, clump, origin_of(scan), execution);
     });
   }
-  work.print(clump.warnings, clump_lines(clump));
+  work.print_made(clump.warnings, clump_lines(clump));
   return Done;
 }
 

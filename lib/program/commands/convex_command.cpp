@@ -119,7 +119,7 @@ int run(const ConvexArguments& arguments) {
       write_report(path, result, origin_of(scan), execution);
     });
   }
-  work.print(result.warnings, parts_lines(result));
+  work.print_made(result.warnings, parts_lines(result));
   return Done;
 }
 

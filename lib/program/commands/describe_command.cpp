@@ -196,9 +196,9 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
        {"grain.stl --report grain.html --report grains.csv",
         "remesh.ply scan.ply --report difference.html", "clump.csv scan.ply",
         "remesh.ply scan.ply --parts", "labels.nrrd scan.tif -o contacts"},
-       "Two meshes must have the same position: wscvt does not align them. Of labels, OUT gets\n"
+       "Two meshes must have the same position: wscvt does not align them. Of labels, OUT gets "
        "contacts.csv (areas, normals and their uncertainty), grains.csv (coordination), "
-       "contacts.vtp\nfor ParaView, and the page fabric.html with rose diagrams.",
+       "contacts.vtp for ParaView, and the page fabric.html with rose diagrams.",
        true});
   add_file_argument(app, "grain", arguments.grain,
                     mesh_argument_text("Closed mesh", MeshUse::Read) +

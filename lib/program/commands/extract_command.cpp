@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -103,7 +104,8 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
   const Sentence warning = intersection_warning(result, labels);
-  work.print(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning}, lines);
+  work.print_made(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning},
+                  std::move(lines), arguments.folder);
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 
@@ -162,8 +164,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
        {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
         "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --conforming --edge-length 4"},
        "OUT gets one mesh per label or body, such as 12.ply, and labels.csv or bodies.csv "
-       "with the\nstate of each. The same call continues after an interruption. wscvt "
-       "batch remeshes the\ngrains of a volume, and with --parts the bodies of a mesh.",
+       "with the state of each. The same call continues after an interruption. wscvt "
+       "batch remeshes the grains of a volume, and with --parts the bodies of a mesh.",
        true,
        true});
   add_file_argument(
@@ -199,6 +201,7 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
 }
 
 int run(const ExtractArguments& given) {
+  const auto begin = std::chrono::steady_clock::now();
   const bool is_mesh = !is_volume(given.input) && is_mesh_format(given.input, MeshUse::Read);
   const ExtractArguments arguments = checked([&] {
     if (is_mesh) check_mesh_input(given.input);
@@ -221,9 +224,11 @@ int run(const ExtractArguments& given) {
   const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);
   const JobEnd end = run_job(job, grains, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print(job.shard.count > 1 ? std::vector<std::string>{end_line(job, end)}
-                            : write_census(arguments.job, job, grains),
-        arguments.quiet);
+  std::vector<std::string> lines = job.shard.count > 1
+                                       ? std::vector<std::string>{end_line(job, end)}
+                                       : write_census(arguments.job, job, grains);
+  for (std::string& line : end_of_log({arguments.folder}, begin)) lines.push_back(std::move(line));
+  print(lines, arguments.quiet);
   return end.failed == 0 && !is_much_left_out(grains.left_out()) ? Done : SomeFailed;
 }
 

@@ -116,8 +116,8 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
         "grain.ply -k 100 -o fragments --sizes sieve.csv",
         "grain.ply -k 20 -o fragments -n 200 --format shp"},
        "OUT gets fragment_1.ply to fragment_K.ply, fragments.csv, and contacts.csv with the area, "
-       "centre\nand normal of each wall. Two fragments have the same triangles on their wall, and "
-       "keep all points\nof the surface. With -n, --edge-length or --tetrahedra they are remeshed "
+       "centre and normal of each wall. Two fragments have the same triangles on their wall, and "
+       "keep all points of the surface. With -n, --edge-length or --tetrahedra they are remeshed "
        "with even edges."});
   add_file_argument(app, "grain", arguments.grain, mesh_argument_text("Grain", MeshUse::Read))
       ->required();
@@ -215,7 +215,7 @@ int run(const FragmentArguments& arguments) {
   lines.insert(lines.end(), filled.begin(), filled.end());
   for (std::string& line : older.remove_but(files, arguments.grain))
     lines.push_back(std::move(line));
-  work.print(warnings, lines);
+  work.print_made(warnings, std::move(lines), arguments.folder);
   return Done;
 }
 

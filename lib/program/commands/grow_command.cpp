@@ -84,8 +84,8 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
         "shape.csv --templates -k 50 -o chosen --descriptors convexity,roundness_wadell"},
        "OUT gets a mesh per grain, grown.csv and a script for Yade; of templates, meshes of the "
        "volume "
-       "of a\nsphere of diameter 1, templates.csv (weights and sizes), sizes.csv (the size curve), "
-       "distances.csv,\nand files for Yade, LIGGGHTS and MercuryDPM. Meshes are in the principal "
+       "of a sphere of diameter 1, templates.csv (weights and sizes), sizes.csv (the size curve), "
+       "distances.csv, and files for Yade, LIGGGHTS and MercuryDPM. Meshes are in the principal "
        "frame.",
        false,
        true});

@@ -75,8 +75,8 @@ CLI::App& add_arguments(CLI::App& program, SampleArguments& arguments) {
        "Compute the statistics of a sample, or compare two samples",
        {"out --report sample.html", "out supplier.csv --report both.html --diameter feret-min",
         "out --density 2650 --report sample.csv --report sample.json"},
-       "SAMPLE is an output folder of wscvt batch, or a table with a column \"grain\" and columns\n"
-       "of numbers, named as in shape.csv. The folder of a batch with several numbers of nodes\n"
+       "SAMPLE is an output folder of wscvt batch, or a table with a column \"grain\" and columns "
+       "of numbers, named as in shape.csv. The folder of a batch with several numbers of nodes "
        "(-n 100,300) also gives the errors against the number of nodes."});
   app.add_option("samples", arguments.samples,
                  "A folder or a table; a second sample is compared with the first")

@@ -43,7 +43,7 @@ CLI::App& add_arguments(CLI::App& program, SegmentArguments& arguments) {
        "Label the grains of a grey-value volume or a mask",
        {"scan.tif labels.nrrd", "scan.tif labels.nrrd --phases 1",
         "mask.tif labels.mha --separate 0.6 --voxel-size 12um"},
-       "Check the page first: it shows the grains' outlines on three slices of the scan. Then\n"
+       "Check the page first: it shows the grains' outlines on three slices of the scan. Then "
        "remesh the labels with wscvt batch."});
   add_file_argument(app, "scan", arguments.scan,
                     "Volume of grey values, or mask, in a format of wscvt extract")

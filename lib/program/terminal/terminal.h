@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace wscvt::program {
 
@@ -32,6 +33,25 @@ void ignore_file_size_signal();
 
 /// Returns the number of the noted signal; 0 if there was no signal.
 int noted_signal();
+
+/// The numbers of the streams that the program writes.
+enum class Stream { Output = 1, Error = 2 };
+
+/// Returns the columns of the terminal that shows a stream: COLUMNS if it is set, or what the
+/// terminal says, or 80. Returns 0 if the stream is a file or a pipe.
+std::size_t terminal_columns(Stream stream);
+
+/// Breaks a line between words into lines of at most `width` characters. A longer word stays whole.
+/// Lines after the first begin with `indent` spaces.
+std::string wrapped(std::string_view line, std::size_t width, std::size_t indent = 0);
+
+/// Returns a text for people as the stream shows it. On a terminal, sentences are broken at its
+/// width, at most 80 columns, and rows of tables stay whole. In a file or a pipe, every line stays
+/// whole, because scripts read them.
+std::string shown_on(Stream stream, std::string_view text);
+
+/// Writes a sentence, in readable characters, and a line end to the standard error (see shown_on).
+void print_error(std::string_view sentence);
 
 /// A line on a terminal's standard error that shows the progress; no line if standard error is a
 /// file or a pipe. Debian has no C++ library for progress lines, and this class is short.

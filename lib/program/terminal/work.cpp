@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
+#include <utility>
 
 #include "program/call/exit_code.h"
 #include "program/terminal/terminal.h"
@@ -62,6 +62,15 @@ void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::s
   program::print(lines, quiet_);
 }
 
+void Work::print_made(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
+                      const std::string& folder) {
+  for (std::string& line :
+       end_of_log(folder.empty() ? written_ : std::vector<std::string>{folder}, begin_)) {
+    lines.push_back(std::move(line));
+  }
+  print(warnings, lines);
+}
+
 void Work::print_log(const RemeshResult& result, bool verbose) {
   std::vector<std::string> lines = verbose ? report_lines(result) : summary_lines(result);
   // Warnings are printed once, before.
@@ -69,19 +78,25 @@ void Work::print_log(const RemeshResult& result, bool verbose) {
       std::remove_if(lines.begin(), lines.end(),
                      [](const std::string& line) { return line.rfind("Warning ", 0) == 0; }),
       lines.end());
-  for (const std::string& path : written_) {
-    lines.push_back((&path == &written_.front() ? "Files       \"" : "            \"") + path +
-                    "\"");
-  }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin_;
-  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  for (std::string& line : end_of_log(written_, begin_)) lines.push_back(std::move(line));
   lines.push_back(verdict_line(result));
-  print(result.warnings, lines);
+  print(verbose ? report_warnings(result) : result.warnings, lines);
+}
+
+std::vector<std::string> end_of_log(const std::vector<std::string>& written,
+                                    std::chrono::steady_clock::time_point begin) {
+  std::vector<std::string> lines;
+  for (const std::string& path : written) {
+    lines.push_back((lines.empty() ? "Files       \"" : "            \"") + path + "\"");
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
+  return lines;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) {
-    std::fprintf(stderr, "Warning: %s\n", readable(warning).c_str());
+    print_error("Warning: " + warning);
   }
 }
 
@@ -89,7 +104,7 @@ void print(const std::vector<std::string>& lines, bool quiet) {
   if (quiet) return;
   std::string text;
   for (const std::string& line : lines) text += readable(line) + "\n";
-  write_file("/dev/stdout", text);
+  write_file("/dev/stdout", shown_on(Stream::Output, text));
 }
 
 ReportOrigin origin_of(const std::string& source) { return {source, today()}; }
@@ -136,13 +151,13 @@ JobEnd on_terminal(int threads, bool quiet, const std::function<JobEnd(const Job
   host.is_cancelled = [] { return noted_signal() != 0; };
   host.failed = [&](const std::string& grain, const std::string& error) {
     line.clear();
-    std::fprintf(stderr, "Failed: %s: %s\n", readable(grain, "").c_str(), readable(error).c_str());
+    print_error("Failed: " + readable(grain, "") + ": " + error);
   };
   JobEnd end = run(host);
   line.clear();
   if (end.was_cancelled()) {
-    std::fprintf(stderr, "Cancelled after %zu of %zu grains. %s\n", end.done, end.count,
-                 end.when_stopped.c_str());
+    print_error("Cancelled after " + std::to_string(end.done) + " of " + std::to_string(end.count) +
+                " grains. " + end.when_stopped);
   }
   return end;
 }

@@ -40,6 +40,11 @@ class Work {
   /// output unless quiet.
   void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
 
+  /// As print. Then lines tell the files written, or only their folder if it is given, and the
+  /// seconds since the work began.
+  void print_made(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
+                  const std::string& folder = "");
+
   /// Prints the log of a remesh: the warnings, a summary or the whole report, the files written,
   /// the seconds since the work began, and the verdict.
   void print_log(const RemeshResult& result, bool verbose);
@@ -51,6 +56,11 @@ class Work {
   std::vector<std::string> written_;
   Execution execution_;
 };
+
+/// Returns the lines of a log that tell the files or the folder written, and the seconds since
+/// `begin`.
+std::vector<std::string> end_of_log(const std::vector<std::string>& written,
+                                    std::chrono::steady_clock::time_point begin);
 
 /// Returns the result of `work`, with a progress line on a terminal unless quiet. A signal cancels.
 template <class DoWork>

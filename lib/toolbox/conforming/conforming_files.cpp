@@ -214,7 +214,9 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
     lines.push_back("Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
                     format_percent(share) + " of the grains, went to the grains beside them");
   }
-  lines.push_back("Volumes: exact within " + format_number(100.0 * grains.volume_error, 2) + " %");
+  const std::string error = format_error(100.0 * grains.volume_error);
+  lines.push_back("Volumes: " +
+                  (error == "exact" ? error : "exact within " + error.substr(1) + " %"));
   lines.push_back("Intersecting pairs of triangles: " + std::to_string(grains.intersections));
   return lines;
 }

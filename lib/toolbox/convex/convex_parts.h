@@ -6,6 +6,7 @@
 #include "toolbox/convex/convex_options.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/numbers.h"
 
 namespace wscvt {
 
@@ -48,7 +49,9 @@ struct PartsMeasures {
   double grain_volume = 0.0;
 
   /// Volume of the parts / the grain's, less 1, in %.
-  double excess_percent() const { return 100.0 * (parts_volume / grain_volume - 1.0); }
+  double excess_percent() const {
+    return without_rounding(100.0 * (parts_volume / grain_volume - 1.0), 1.0);
+  }
 };
 
 /// Measures parts against a closed outward mesh: distances at outer_points, shared volumes on a

@@ -180,8 +180,11 @@ std::vector<std::string> fabric_lines(const Fabric& fabric) {
   }
   if (fabric.contact_count > fabric.closed_count) {
     const auto diagonal = [](const Eigen::Matrix3d& t) {
-      return format_number(t(0, 0), 3) + " " + format_number(t(1, 1), 3) + " " +
-             format_number(t(2, 2), 3);
+      std::string text;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        text += (k == 0 ? "" : " ") + format_number(without_rounding(t(k, k), t.trace()), 3);
+      }
+      return text;
     };
     lines.push_back("Fabric tensor of the normals, xx yy zz: " + diagonal(fabric.tensor) +
                     "; anisotropy " + format_number(anisotropy_of(fabric.tensor), 3));

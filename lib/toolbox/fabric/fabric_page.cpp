@@ -84,13 +84,17 @@ std::vector<std::vector<std::string>> tensor_rows(const Eigen::Matrix3d& tensor,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
   std::vector<std::vector<std::string>> rows = {
       {name, "x", "y", "z", "principal value", "its direction"}};
+  const auto number = [](double value, double scale, int digits) {
+    return format_number(without_rounding(value, scale), digits);
+  };
+  const double largest = tensor.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < 3; ++k) {
     std::vector<std::string> row = {std::string(1, axis_names[k])};
-    for (Eigen::Index j = 0; j < 3; ++j) row.push_back(format_number(tensor(k, j), 4));
-    row.push_back(format_number(solver.eigenvalues()[2 - k], 4));
+    for (Eigen::Index j = 0; j < 3; ++j) row.push_back(number(tensor(k, j), largest, 4));
+    row.push_back(number(solver.eigenvalues()[2 - k], largest, 4));
     const Vector3 direction = solver.eigenvectors().col(2 - k);
-    row.push_back(format_number(direction.x(), 3) + ", " + format_number(direction.y(), 3) + ", " +
-                  format_number(direction.z(), 3));
+    row.push_back(number(direction.x(), 1.0, 3) + ", " + number(direction.y(), 1.0, 3) + ", " +
+                  number(direction.z(), 1.0, 3));
     rows.push_back(row);
   }
   return rows;

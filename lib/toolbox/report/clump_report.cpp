@@ -2,7 +2,6 @@
 #include "toolbox/report/clump_report.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <limits>
 #include <optional>
@@ -124,42 +123,6 @@ std::vector<NamedMass> masses(const ClumpResult& clump) {
           {"sum over the spheres", clump.summed.mass}};
 }
 
-/// The mass properties for a log: one number per cell, since its lines have 80 columns.
-std::vector<std::vector<std::string>> single_mass_rows(const ClumpResult& clump) {
-  std::vector<std::vector<std::string>> rows = {{"Mass at unit density", "grain", "union", "sum"}};
-  const std::vector<NamedMass> bodies = masses(clump);
-  const auto add = [&](const std::string& label, const auto& number_of) {
-    rows.push_back({"  " + label});
-    for (const NamedMass& body : bodies) {
-      rows.back().push_back(format_number(number_of(body.mass)));
-    }
-  };
-  constexpr std::array<char, 3> axes{'x', 'y', 'z'};
-  add("volume, length^3", [](const MassProperties& m) { return m.volume; });
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    rows.push_back({std::string("  centroid ") + axes[static_cast<std::size_t>(i)] + ", length"});
-    for (const NamedMass& body : bodies) {
-      rows.back().push_back(
-          format_coordinate(body.mass.centroid[i], equivalent_radius(body.mass.volume)));
-    }
-  }
-  for (const auto& [i, j] : {std::pair(0, 0), {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}) {
-    add(std::string("inertia about it ") + axes[static_cast<std::size_t>(i)] +
-            axes[static_cast<std::size_t>(j)] + ", length^5",
-        [i = i, j = j](const MassProperties& m) { return m.inertia_tensor(i, j); });
-  }
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    add("principal moment " + std::to_string(i + 1) + ", length^5",
-        [i](const MassProperties& m) { return m.principal_moments[i]; });
-  }
-  // In Eigen's order w comes last.
-  for (const auto& [name, i] : {std::pair('w', 3), {'x', 0}, {'y', 1}, {'z', 2}}) {
-    add(std::string("principal axes, quaternion ") + name,
-        [i = i](const MassProperties& m) { return m.principal_axes.coeffs()[i]; });
-  }
-  return rows;
-}
-
 }  // namespace
 
 Json json_of(const ClumpOptions& options) {
@@ -181,7 +144,6 @@ std::vector<std::string> clump_lines(const ClumpResult& clump) {
   append(error_rows(clump));
   append(contact_rows(clump));
   append(mass_error_rows(clump));
-  append(single_mass_rows(clump));
   return lines;
 }
 

@@ -15,7 +15,8 @@ namespace wscvt {
 /// Every option of a clump with the name and value of the command line.
 Json json_of(const ClumpOptions& options);
 
-/// Returns the result as lines of plain text for a log.
+/// Returns the errors of the clump as lines of plain text for a log, at most 11. The reports have
+/// its mass properties.
 std::vector<std::string> clump_lines(const ClumpResult& clump);
 
 /// Returns a JSON document with the spheres, like report_json. Fractions of the equivalent radius

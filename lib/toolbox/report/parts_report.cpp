@@ -44,8 +44,8 @@ std::vector<std::string> parts_lines(const PartsResult& result) {
               ", largest " + length_text(m.largest_distance, m),
           "Points of the grain outside of the parts: at most " + length_text(m.largest_gap, m),
           "Volume of the parts beyond the grain's: " +
-              (std::abs(m.excess_percent()) < 1e-9 ? std::string("exact")
-                                                   : format_number(m.excess_percent(), 3) + " %") +
+              (m.excess_percent() == 0.0 ? std::string("exact")
+                                         : format_number(m.excess_percent(), 3) + " %") +
               ", and " + format_number(100.0 * m.shared_volume / m.grain_volume, 3) +
               " % inside several parts"};
 }

@@ -44,6 +44,12 @@ std::string format_typed(double value) {
 
 std::string format_percent(double share) { return format_number(100.0 * share, 3) + " %"; }
 
+std::string format_above(double limit, double value) {
+  int digits = 3;
+  while (digits < 17 && format_number(value, digits) == format_number(limit, digits)) ++digits;
+  return format_number(value, digits);
+}
+
 std::string format_error(double percent) {
   if (!std::isfinite(percent)) return "-";
   // Sums over a million triangles have relative errors of some 1e-12, 1e-10 %.

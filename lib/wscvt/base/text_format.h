@@ -23,6 +23,10 @@ std::string format_typed(double value);
 /// Formats a fraction for people, in per cent with three digits: 0.05 is "5 %".
 std::string format_percent(double fraction);
 
+/// Formats a value above a limit for people, with three digits, or as many as tell it from the
+/// limit.
+std::string format_above(double limit, double value);
+
 /// Formats an error in per cent for people, with its sign and three decimals, and in exponent form
 /// below 0.001. Returns "exact" below 1e-9, which is rounding, and "-" if it is not finite.
 std::string format_error(double percent);

@@ -60,7 +60,8 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
 /// depends more on the clip than on the grain. Otherwise empty. `grain` is the grain's name.
 std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& descriptors);
 
-/// Returns 100 (value / reference - 1); 0 if the two are equal, even at zero.
+/// Returns 100 (value / reference - 1); 0 below 1e-9, which is rounding, and 0 if the two are
+/// equal, even at zero.
 double relative_error_percent(double value, double reference);
 
 /// Returns the largest absolute entry of the difference of two inertia tensors, in the principal

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/measures/grain_measures.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -86,21 +87,23 @@ void append_detail_remarks(const std::string& name, const DetailedDescriptors& d
   }
 }
 
-void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences) {
+/// Appends what there is to say of a grain, under a name.
+void append_remarks(const MeasuredGrain& grain, const std::string& name,
+                    std::vector<Sentence>& sentences) {
   if (grain.checked.report.components > 1) {
     sentences.push_back("Only the largest of the " +
-                        std::to_string(grain.checked.report.components) + " parts of '" +
-                        grain.name + "' was measured.");
+                        std::to_string(grain.checked.report.components) + " parts of '" + name +
+                        "' was measured.");
   }
   const MeshCheckReport& report = grain.checked.report;
   // Its steps would be taken for voxels.
-  const std::string far = single_precision_warning(grain.checked.mesh, "'" + grain.name + "'");
+  const std::string far = single_precision_warning(grain.checked.mesh, "'" + name + "'");
   if (!far.empty()) {
     sentences.push_back(far);
   } else if (grain.texture.kind != Texture::None) {
-    sentences.push_back(texture_sentence(grain.texture, "'" + grain.name + "'"));
+    sentences.push_back(texture_sentence(grain.texture, "'" + name + "'"));
   } else if (report.has_voxel_steps) {
-    sentences.push_back(voxel_steps_advice("'" + grain.name + "'"));
+    sentences.push_back(voxel_steps_advice("'" + name + "'"));
   }
   if (!grain.crossing_remark.empty()) sentences.push_back(grain.crossing_remark);
   if (report.stray_distance > 0.0) {
@@ -111,11 +114,11 @@ void append_remarks(const MeasuredGrain& grain, std::vector<Sentence>& sentences
   }
   const double mended = report.flap_area_fraction + report.filled_area_fraction;
   if (mended > 0.0) {
-    sentences.push_back("Holes and non-manifold edges of '" + grain.name +
+    sentences.push_back("Holes and non-manifold edges of '" + name +
                         "' were repaired for the measurement. This changed " +
                         format_percent(mended) + " of its area.");
   }
-  append_detail_remarks(grain.name, grain.descriptors, sentences);
+  append_detail_remarks(name, grain.descriptors, sentences);
 }
 
 }  // namespace
@@ -144,8 +147,24 @@ std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measu
 
 std::vector<Sentence> remarks(const GrainMeasures& measures) {
   std::vector<Sentence> sentences;
-  append_remarks(measures.grain, sentences);
-  if (measures.reference) append_remarks(*measures.reference, sentences);
+  append_remarks(measures.grain, measures.grain.name, sentences);
+  if (!measures.reference) return sentences;
+  // What is true of both is said once.
+  const std::vector<Sentence> of_grain = sentences;
+  const std::string& name = measures.reference->name;
+  std::vector<Sentence> of_reference;
+  std::vector<Sentence> under_same_name;
+  append_remarks(*measures.reference, name, of_reference);
+  append_remarks(*measures.reference, measures.grain.name, under_same_name);
+  for (std::size_t k = 0; k < of_reference.size(); ++k) {
+    const auto same = std::find(of_grain.begin(), of_grain.end(), under_same_name[k]);
+    if (same == of_grain.end()) {
+      sentences.push_back(of_reference[k]);
+    } else if (!(of_reference[k] == under_same_name[k])) {
+      sentences[static_cast<std::size_t>(same - of_grain.begin())] +=
+          " The same is true of '" + name + "'.";
+    }
+  }
   return sentences;
 }
 

@@ -181,7 +181,7 @@ std::string sdq_clip_sentence(const std::string& grain, const ShapeDescriptors& 
 
 double relative_error_percent(double value, double reference) {
   if (value == reference) return 0.0;
-  return 100.0 * (value / reference - 1.0);
+  return without_rounding(100.0 * (value / reference - 1.0), 1.0);
 }
 
 double inertia_error_percent(const ShapeDescriptors& value, const ShapeDescriptors& reference) {

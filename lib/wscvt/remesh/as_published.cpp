@@ -8,6 +8,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/repair/overhangs.h"
+#include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
 #include "wscvt/surface/harmonic_surface.h"
@@ -23,20 +24,25 @@ namespace {
 /// (four scans). Above, it is up to 12 % too small, and 54 % if 8 % lie behind another sheet.
 constexpr double told_by_rays = 1e-3;
 
+std::string on_scan_accepts() {
+  return ". It accepts closed grains with overhangs, and with up to " +
+         std::to_string(most_handles_cut) + " handles.";
+}
+
 void refuse_overhang(double overhang_fraction, double limit) {
   if (overhang_fraction >= 1.0) {
     throw Error(ErrorCode::NotStarShaped,
                 "The grain is not star-shaped: its volume centroid lies outside of it or on its "
                 "surface. Use " +
-                    mention(Method::OnScan) + ". It accepts any closed grain.");
+                    mention(Method::OnScan) + on_scan_accepts());
   }
   if (overhang_fraction > limit) {
     throw Error(ErrorCode::NotStarShaped,
                 "The grain is not star-shaped: overhangs cover " +
-                    format_percent(overhang_fraction) + " of the sphere (limit " +
-                    format_percent(limit) + "). Use " + mention(Method::OnScan) +
-                    ". It accepts any closed grain. Or raise " + mention(max_overhang_option) +
-                    " and check the result.");
+                    format_above(100.0 * limit, 100.0 * overhang_fraction) +
+                    " % of the sphere (limit " + format_number(100.0 * limit) + " %). Use " +
+                    mention(Method::OnScan) + on_scan_accepts() + " Or raise " +
+                    mention(max_overhang_option) + " and check the result.");
   }
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "wscvt/base/text_format.h"
-#include "wscvt/measures/descriptors.h"
 #include "wscvt/repair/scan_advice.h"
 
 namespace wscvt {
@@ -302,8 +301,6 @@ std::vector<Sentence> remesh_warnings(const RemeshResult& result, const std::str
   warn_of_detail(result, warnings);
   warn_of_fit(result, warnings);
   warn_of_distance(result, warnings);
-  const std::string clipped = sdq_clip_sentence("the scan", result.scan);
-  if (!clipped.empty()) warnings.push_back(clipped);
   warn_of_self_intersections(result, warnings);
   warn_of_relaxation(result, warnings);
   warn_of_angles(result, warnings);

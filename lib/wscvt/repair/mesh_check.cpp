@@ -150,8 +150,8 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
 void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, double widest_share,
                   double seam, const MeshCheckReport& report) {
   const double mended = report.flap_area_fraction + report.filled_area_fraction;
-  const double limit = 0.01 * options.repaired_area_limit_percent;
-  if (!(mended > limit)) return;
+  const double limit = options.repaired_area_limit_percent;
+  if (!(mended > 0.01 * limit)) return;
   if (seam > 0.0) refuse(open_seam_sentence(seam));
   std::string found;
   if (report.non_manifold_edges > 0) {
@@ -163,11 +163,17 @@ void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, d
              " around " + count_of(report.filled_holes, "hole");
   }
   Sentence sentence = "The mesh has " + found + ". Their repair would change " +
-                      format_percent(mended) + " of its area (limit " + format_percent(limit) +
-                      "). Raise " + mention(repaired_area_limit_option) + " above " +
-                      format_percent(mended) +
-                      " and check the result against the scan, close the openings first (" +
-                      where_meshlab_closes() + "), or scan the grain again.";
+                      format_above(limit, 100.0 * mended) + " % of its area (limit " +
+                      typed_text(limit) + " %). ";
+  // Rounded up, because this number must be enough.
+  const double enough = std::floor(1.0 + 1000.0 * mended) / 10.0;
+  if (enough <= repaired_area_limit_option.maximum) {
+    sentence += "Raise " + mention(repaired_area_limit_option) + " to " + typed_text(enough) +
+                " % and check the result against the scan, close";
+  } else {
+    sentence += "Close";
+  }
+  sentence += " the openings first (" + where_meshlab_closes() + "), or scan the grain again.";
   // A ball as wide as the hole still enters it a little.
   const double percent = std::max(usual_opening_percent, std::ceil(120.0 * widest_share));
   if (percent <= coarsest_opening_percent) sentence += " " + wrap_advice(percent);

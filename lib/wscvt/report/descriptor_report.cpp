@@ -157,9 +157,12 @@ std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& o
 
 namespace {
 
-std::string listed(std::initializer_list<double> numbers) {
+/// Returns the numbers, which have one scale.
+std::string listed(std::initializer_list<double> numbers, double scale) {
   std::string text;
-  for (const double number : numbers) text += (text.empty() ? "" : ", ") + format_number(number);
+  for (const double number : numbers) {
+    text += (text.empty() ? "" : ", ") + format_number(without_rounding(number, scale));
+  }
   return text;
 }
 
@@ -179,13 +182,15 @@ std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bo
     const Eigen::Quaterniond& axes = mass.principal_axes;
     rows[0].push_back(body.name);
     const double radius = equivalent_radius(mass.volume);
-    rows[1].push_back(format_coordinate(mass.centroid.x(), radius) + ", " +
-                      format_coordinate(mass.centroid.y(), radius) + ", " +
-                      format_coordinate(mass.centroid.z(), radius));
-    rows[2].push_back(listed({tensor(0, 0), tensor(1, 1), tensor(2, 2)}));
-    rows[3].push_back(listed({tensor(0, 1), tensor(0, 2), tensor(1, 2)}));
-    rows[4].push_back(listed({moments[0], moments[1], moments[2]}));
-    rows[5].push_back(listed({axes.w(), axes.x(), axes.y(), axes.z()}));
+    const auto coordinate = [radius](double value) {
+      return format_coordinate(without_rounding(value, radius), radius);
+    };
+    rows[1].push_back(coordinate(mass.centroid.x()) + ", " + coordinate(mass.centroid.y()) + ", " +
+                      coordinate(mass.centroid.z()));
+    rows[2].push_back(listed({tensor(0, 0), tensor(1, 1), tensor(2, 2)}, moments[2]));
+    rows[3].push_back(listed({tensor(0, 1), tensor(0, 2), tensor(1, 2)}, moments[2]));
+    rows[4].push_back(listed({moments[0], moments[1], moments[2]}, moments[2]));
+    rows[5].push_back(listed({axes.w(), axes.x(), axes.y(), axes.z()}, 1.0));
   }
   return rows;
 }

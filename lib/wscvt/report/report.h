@@ -26,9 +26,13 @@ std::string made_by();
 /// Returns "Made from scan.ply by wscvt 1.0.0 on 2026-11-21.", without empty fields.
 std::string origin_sentence(const ReportOrigin& origin);
 
+/// Returns the warnings of the result, and one of Sdq if it is not reliable: for whoever shows Sdq.
+/// A remesh without the measure of Sdq is as good, so that its own warnings do not have this one.
+std::vector<Sentence> report_warnings(const RemeshResult& result);
+
 /// Returns lines of plain text for a log: input counts and repairs, overhang, fit degree and
 /// residual, iterations and why they stopped, N and faces, quality before and after, the table
-/// descriptor / scan / remesh / error %, warnings. The decimal sign is a point in every locale.
+/// descriptor / scan / remesh / error %, report_warnings. The decimal sign is a point in every locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
 /// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of

@@ -68,7 +68,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   HtmlDocument page("Remesh" + (name.empty() ? "" : " of " + name) + " with " +
                     std::to_string(result.mesh.points.size()) + " nodes");
   page.add_paragraph(origin_sentence(origin));
-  for (const std::string& warning : result.warnings) page.add_warning(warning);
+  for (const std::string& warning : report_warnings(result)) page.add_warning(warning);
   page.add_figures(figures.pictures);
   page.add_heading("Descriptors");
   page.add_table(

@@ -197,7 +197,7 @@ Json report_of(const RemeshResult& result, const ReportOrigin& origin) {
       {"mass",
        {{"scan", json_of(mass_properties(result.scan))},
         {"remesh", json_of(mass_properties(result.remesh))}}},
-      {"warnings", result.warnings},
+      {"warnings", report_warnings(result)},
   };
 }
 

@@ -7,6 +7,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -49,7 +50,11 @@ std::vector<std::string> descriptor_errors(const RemeshResult& result) {
   std::vector<std::string> errors;
   for (const auto& [key, label] : shown) {
     for (const DescriptorComparison& row : rows) {
-      if (row.key == key) errors.push_back(error_text(label, row.error_percent));
+      if (row.key != key) continue;
+      const bool is_reliable =
+          row.key != "sdq_invariant" || sdq_clip_sentence("", result.scan).empty();
+      errors.push_back(is_reliable ? error_text(label, row.error_percent)
+                                   : std::string(label) + " not reliable");
     }
   }
   return errors;

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/descriptors.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/report.h"
 
@@ -272,6 +273,13 @@ std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
 
 }  // namespace
 
+std::vector<Sentence> report_warnings(const RemeshResult& result) {
+  std::vector<Sentence> warnings = result.warnings;
+  const std::string clipped = sdq_clip_sentence("the scan", result.scan);
+  if (!clipped.empty()) warnings.emplace_back(clipped);
+  return warnings;
+}
+
 std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
@@ -297,7 +305,7 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
            {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }
-  for (const std::string& warning : result.warnings) lines.push_back(line("Warning", warning));
+  for (const std::string& warning : report_warnings(result)) lines.push_back(line("Warning", warning));
   return lines;
 }
 
