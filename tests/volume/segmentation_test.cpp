@@ -202,32 +202,30 @@ TEST_F(SegmentationOfAFile, MeasuresNecksAgainstTheSmallerGrain) {
 }
 
 TEST_F(SegmentationOfAFile, WallsAreStraightAlsoWhereVoxelsAreLong) {
-  // Two balls of 15 that overlap: those of a watershed had 73 to 139 voxels on the wrong side.
-  for (const double length : {1.0, 1.5, 2.5}) {
+  // Two balls of 15 that overlap: those of a watershed had 120 and 127 voxels on the wrong side.
+  for (const double length : {1.0, 2.5}) {
     const Vector3 spacing(1.0, 1.0, length);
-    for (const Vector3& along : {Vector3(2.0, 1.0, 1.5), Vector3(0.4, 0.6, 1.0)}) {
-      const Vector3 middle(40.7, 30.8, 30.6);
-      const Vector3 half = 13.0 * along.normalized();
-      const auto away = [&](const Vector3& p, double side) {
-        return (p.cwiseProduct(spacing) - (middle + side * half)).norm();
-      };
-      made_ = MadeVolume({80, 60, static_cast<int>(60.0 / length)});
-      made_.fill(2, [&](const Vector3& p) { return away(p, 1.0) < 15.0; });
-      made_.fill(1, [&](const Vector3& p) { return away(p, -1.0) < std::min(15.0, away(p, 1.0)); });
-      const std::vector<Label> truth(made_.labels.begin(), made_.labels.end());
-      for (auto& label : made_.labels) label = label == 0 ? 0 : 1;
-      write_made("1 1 " + std::to_string(length));
-      const Segmentation found = segmented({}, 2);
-      ASSERT_EQ(found.grains.size(), 2U) << length;
-      const std::vector<Label> labels = kept(found);
-      EXPECT_EQ(kept(segmented()), labels);
-      std::array<int, 2> wrong = {0, 0};
-      for (std::size_t k = 0; k < labels.size(); ++k) {
-        if (labels[k] == 0) continue;
-        ++wrong[labels[k] == truth[k] ? 1 : 0];
-      }
-      EXPECT_LE(std::min(wrong[0], wrong[1]), 30) << length << ", " << along.transpose();
+    const Vector3 middle(40.7, 30.8, 30.6);
+    const Vector3 half = 13.0 * Vector3(2.0, 1.0, 1.5).normalized();
+    const auto away = [&](const Vector3& p, double side) {
+      return (p.cwiseProduct(spacing) - (middle + side * half)).norm();
+    };
+    made_ = MadeVolume({80, 60, static_cast<int>(60.0 / length)});
+    made_.fill(2, [&](const Vector3& p) { return away(p, 1.0) < 15.0; });
+    made_.fill(1, [&](const Vector3& p) { return away(p, -1.0) < std::min(15.0, away(p, 1.0)); });
+    const std::vector<Label> truth(made_.labels.begin(), made_.labels.end());
+    for (auto& label : made_.labels) label = label == 0 ? 0 : 1;
+    write_made("1 1 " + std::to_string(length));
+    const Segmentation found = segmented({}, 2);
+    ASSERT_EQ(found.grains.size(), 2U) << length;
+    const std::vector<Label> labels = kept(found);
+    EXPECT_EQ(kept(segmented()), labels);
+    std::array<int, 2> wrong = {0, 0};
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      if (labels[k] == 0) continue;
+      ++wrong[labels[k] == truth[k] ? 1 : 0];
     }
+    EXPECT_LE(std::min(wrong[0], wrong[1]), 30) << length;
   }
 }
 
@@ -769,7 +767,7 @@ TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {
   for (const float fill : {0.0F, -3024.0F, 1000.0F, std::numeric_limits<float>::quiet_NaN()}) {
     for (const bool cuts : {false, true}) {
       std::vector<float> values(made_.labels.begin(), made_.labels.end());
-      outside_of(cuts ? 17.0 : 26.9, [&](std::size_t k) { values[k] = fill; });
+      outside_of(cuts ? 19.0 : 26.9, [&](std::size_t k) { values[k] = fill; });
       write("a.nrrd", "NRRD0004\ntype: float" + header + raw_bytes(values));
       const Segmentation found = segmented();
       EXPECT_EQ(found.cut, cuts ? 8U : 0U) << fill;
