@@ -312,7 +312,7 @@ TEST_F(Commands, RemeshIsWhatACallWithoutOneMeans) {
 TEST_F(Commands, ReportsTheIntersectionsOfTheFile) {
   // A plate thinner than a float's step where it lies, .0039.
   const Vector3 far = Vector3::Constant(std::ldexp(1.0, 15));
-  write_mesh(test::transformed(test::subdivided(test::box(2.0, 1.7, 0.002), 5),
+  write_mesh(test::transformed(test::subdivided(test::box(2.0, 1.7, 0.0008), 5),
                                test::random_rotation(4), far),
              path("far.ply"));
   IndexedMesh written;
