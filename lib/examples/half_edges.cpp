@@ -28,7 +28,7 @@ int main(int /*count*/, char** arguments) try {
     const double angle = std::abs(remeshed.calc_dihedral_angle(edge));
     if (angle <= sharpest) continue;
     sharpest = angle;
-    at = remeshed.property(height, edge.v0());
+    at = remeshed.property(height, wscvt::Mesh::VertexHandle(edge.v0().idx()));
   }
   std::cout << remeshed.n_vertices() << " nodes with " << neighbours
             << " neighbours; the sharpest edge, " << sharpest << " rad, is at height " << at

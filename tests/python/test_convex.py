@@ -76,7 +76,7 @@ def test_convex_parts_hold_the_grain():
     for vertices, faces in parts:
         assert vertices.shape[1] == 3 and len(faces) == 2 * len(vertices) - 4 and len(faces) <= 255
     assert 0 < report["rms_distance"] < report["largest_distance"]
-    assert report["mass_properties"]["volume"] > 0 and report["excess_volume_percent"] > 0
+    assert report["mass_properties"]["volume"] > 0 and abs(report["excess_volume_percent"]) < 1e-9
     with pytest.raises(wscvt.Error, match="number of parts"):
         wscvt.convex(MESHES / "sand_5658.ply", count=0, nodes=150)
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -24,7 +22,6 @@
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/fragment/fragment_options.h"
 #include "toolbox/job/job_folder.h"
-#include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"
 #include "wscvt/base/error.h"
@@ -83,22 +80,10 @@ bool is_remeshed(const FragmentArguments& arguments) {
          !arguments.tetrahedra.files.empty();
 }
 
-/// Refuses a folder with the fragments of another grain: fragments have the volume of their grain,
-/// however many they are, and a remesh keeps it.
+/// Refuses a folder with the fragments of another grain, told apart by the volume.
 void require_same_grain(const std::string& folder, double volume) {
   constexpr double rounding = 1e-6;  // of files of single precision
-  std::ifstream table(fs::path(folder) / "fragments.csv", std::ios::binary);
-  CsvReader reader(table);
-  std::vector<std::string> fields;
-  if (!reader.next(fields)) return;
-  const auto column = std::find(fields.begin(), fields.end(), "volume") - fields.begin();
-  double sum = 0.0;
-  while (reader.next(fields)) {
-    const std::string& field = fields.at(static_cast<std::size_t>(column));
-    double one = 0.0;
-    std::from_chars(field.data(), field.data() + field.size(), one);
-    sum += one;
-  }
+  const double sum = volume_of_fragments((fs::path(folder) / "fragments.csv").string());
   if (sum == 0.0 || std::abs(sum - volume) <= rounding * volume) return;
   refuse(
       "The folder \"" + folder +

@@ -2,13 +2,16 @@
 #include "toolbox/exchange/fragment_files.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/exchange/node_table.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/exchange/simulation_options.h"
+#include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -72,6 +75,22 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
     text += csv_record(fields);
   }
   return text;
+}
+
+double volume_of_fragments(const std::string& path) {
+  std::ifstream table(path, std::ios::binary);
+  CsvReader reader(table);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) return 0.0;
+  const auto column =
+      static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "volume") - fields.begin());
+  double sum = 0.0;
+  while (reader.next(fields) && column < fields.size()) {
+    double volume = 0.0;
+    std::from_chars(fields[column].data(), fields[column].data() + fields[column].size(), volume);
+    sum += volume;
+  }
+  return sum;
 }
 
 std::string fragment_contacts_csv(const Fragments& fragments) {

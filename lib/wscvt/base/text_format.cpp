@@ -42,7 +42,7 @@ std::string format_typed(double value) {
   return {text.data(), end.ptr};
 }
 
-std::string format_percent(double share) { return format_number(100.0 * share, 3) + " %"; }
+std::string format_percent(double fraction) { return format_number(100.0 * fraction, 3) + " %"; }
 
 std::string format_above(double limit, double value) {
   int digits = 3;

@@ -133,7 +133,7 @@ class BallGrid {
     for (int x = first[0]; x <= last[0]; ++x) {
       for (int y = first[1]; y <= last[1]; ++y) {
         for (int z = first[2]; z <= last[2]; ++z) {
-          visit(static_cast<std::size_t>((x * (most_[1] + 1) + y) * (most_[2] + 1) + z));
+          visit(index((x * (most_[1] + 1) + y) * (most_[2] + 1) + z));
         }
       }
     }
