@@ -10,6 +10,7 @@
 
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/mesh_place.h"
