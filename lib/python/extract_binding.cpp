@@ -76,8 +76,9 @@ Extracted conforming_of(const VolumeOfArray& array, const VolumeOptions& options
   std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
   Extracted extracted;
   extracted.warnings = labels.warnings();
-  const Sentence warning = intersection_warning(result, taken);
-  if (!warning.empty()) extracted.warnings.push_back(warning);
+  for (Sentence& warning : conforming_warnings(result, taken)) {
+    extracted.warnings.push_back(std::move(warning));
+  }
   for (std::size_t g = 0; g < taken.size(); ++g) {
     const std::string name = labels.name_of(taken[g]);
     ExtractedGrain& grain = extracted.grains[name.empty() ? taken[g] : std::stoull(name)];

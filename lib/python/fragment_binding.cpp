@@ -69,16 +69,16 @@ py::tuple fragment(const Points& vertices, const py::object& faces, int count, s
   check_conforming_options(walls);
   const bool is_remeshed = edge_length > 0.0 || nodes > 0;
   IndexedMesh scan = mesh_of(vertices, faces);
-  Sentence intersections;
+  std::vector<Sentence> about_walls;
   const Fragments result = work_on(threads, progress, [&](const Execution& execution) {
     Fragments made =
         fragment_grain(std::move(scan), options, execution.part(0.0, is_remeshed ? 0.3 : 1.0));
     if (is_remeshed) {
-      intersections = intersection_warning(remesh_fragments(made, walls, execution.part(0.3, 1.0)));
+      about_walls = conforming_warnings(remesh_fragments(made, walls, execution.part(0.3, 1.0)));
     }
     return made;
   });
-  if (!intersections.empty()) warn(intersections);
+  for (const Sentence& warning : about_walls) warn(warning);
   for (const Sentence& warning : result.warnings) warn(warning);
   py::list meshes;
   for (const Fragment& one : result.list) {

@@ -250,7 +250,7 @@ TEST(ConformingGrains, NoTrianglesIntersectInThinGaps) {
         EXPECT_GT(result.gained_voxels, 0);
       }
       EXPECT_EQ(result.intersections, 0U);
-      EXPECT_TRUE(intersection_warning(result, std::vector<Label>(12, 1)).empty());
+      EXPECT_TRUE(conforming_warnings(result, std::vector<Label>(12, 1)).empty());
     }
   }
 }
@@ -273,6 +273,47 @@ TEST(ConformingGrains, AWallOfOneFaceKeepsAnArea) {
   // Each corner of the face may move by a fifth of a voxel along each axis, which leaves .36;
   // the restored volumes move them a little more.
   EXPECT_GT(result.walls[0].area, 0.2);
+}
+
+TEST(ConformingGrains, AWallOfOneFaceAmongOthersLeavesNoSlivers) {
+  // Four boxes about a line along z. Only one face joins 0 and 3, and smoothing makes it flat.
+  const ConformingGrains result =
+      conformed(voxels_of(40,
+                          [](const Vector3& p) {
+                            if (!is_in_box(p, Vector3::Constant(20.0), 14.0)) return -1;
+                            const bool is_low = p.z() < 20.0 || p.y() > 21.0;
+                            const double middle = is_low ? 20.0 : 21.0;
+                            return (p.x() < middle ? 0 : 1) + (p.y() < 20.0 ? 0 : 2);
+                          }),
+                4, 4.0);
+  expect_conforming(result);
+  EXPECT_EQ(result.intersections, 0U);
+  EXPECT_GT(result.smallest_angle, 10.0);
+  EXPECT_GT(result.shortest_edge, 0.2 * result.mean_edge);
+  EXPECT_TRUE(conforming_warnings(result, {1, 2, 3, 4}).empty());
+}
+
+TEST(ConformingGrains, TellsSliversAndWallsAcrossGaps) {
+  // Two balls with a gap of half a voxel.
+  const ConformingGrains result = conformed(voxels_of(50,
+                                                      [](const Vector3& p) {
+                                                        const Vector3 half(11.75, 0.0, 0.0);
+                                                        const Vector3 q =
+                                                            p - Vector3(25.5, 25.3, 24.6);
+                                                        if ((q + half).norm() < 11.0) return 0;
+                                                        return (q - half).norm() < 11.0 ? 1 : -1;
+                                                      }),
+                                            2);
+  EXPECT_EQ(result.walls_across, result.walls.size());
+  EXPECT_EQ(result.lost_walls, 0U);
+  ConformingGrains flat = result;
+  flat.smallest_angle = 0.4;
+  flat.shortest_edge = 0.001;
+  flat.flattest = 1;
+  const std::vector<Sentence> warnings = conforming_warnings(flat, {3, 7});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].text().find("0.4 degrees, at grain 7"), std::string::npos);
+  EXPECT_NE(conforming_lines(flat)[1].find("shortest 0.001"), std::string::npos);
 }
 
 TEST(ConformingGrains, GrainsThatTouchInAnEdgeOrACornerAreApart) {

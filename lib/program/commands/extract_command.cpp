@@ -103,9 +103,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
     return tetrahedra_in(meshes, "grain", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
-  const Sentence warning = intersection_warning(result, labels);
-  work.print_made(warning.empty() ? std::vector<Sentence>() : std::vector<Sentence>{warning},
-                  std::move(lines), arguments.folder);
+  work.print_made(conforming_warnings(result, labels), std::move(lines), arguments.folder);
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 

@@ -164,8 +164,8 @@ int run(const FragmentArguments& arguments) {
     const ConformingGrains remeshed =
         remesh_fragments(fragments, arguments.walls, work.execution().part(cut_share, 1.0));
     lines = conforming_lines(remeshed);
-    const Sentence warning = intersection_warning(remeshed);
-    if (!warning.empty()) warnings.push_back(warning);
+    const std::vector<Sentence> found = conforming_warnings(remeshed);
+    warnings.insert(warnings.end(), found.begin(), found.end());
   }
   const std::vector<std::string> about = fragment_lines(fragments);
   lines.insert(lines.begin(), about.begin(), about.end());

@@ -202,17 +202,28 @@ std::string conforming_csv(const ConformingGrains& grains, const std::vector<Lab
 std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
   std::int64_t voxels = 0;
   for (const ConformingGrain& grain : grains.grains) voxels += grain.voxels;
+  constexpr double short_share = 0.2;
+  std::string edges = "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
+                      format_percent(grains.edge_variation) + " of it";
+  if (grains.shortest_edge < short_share * grains.mean_edge) {
+    edges += ", shortest " + format_number(grains.shortest_edge);
+  }
+  edges +=
+      ". Smallest angle of a triangle: " + format_number(grains.smallest_angle, 3) + " degrees";
   std::vector<std::string> lines = {
       std::to_string(grains.grains.size()) + (voxels > 0 ? " grains" : " fragments") + " with " +
           std::to_string(grains.walls.size()) +
           " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
           std::to_string(grains.triangles.size()) + " triangles",
-      "Edges: mean " + format_number(grains.mean_edge) + ", standard deviation " +
-          format_percent(grains.edge_variation) + " of it"};
+      edges};
   if (voxels > 0) {
     const double share = static_cast<double>(grains.gained_voxels) / static_cast<double>(voxels);
     lines.push_back("Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
                     format_percent(share) + " of the grains, went to the grains beside them");
+    lines.push_back(
+        "Walls between labels that do not touch: " + std::to_string(grains.walls_across) +
+        ". Labels that touch without a wall: " + std::to_string(grains.lost_walls) +
+        (grains.lost_walls == 1 ? " pair" : " pairs"));
   }
   const std::string error = format_error(100.0 * grains.volume_error);
   lines.push_back("Volumes: " +
@@ -235,26 +246,41 @@ std::string intersecting(const ConformingGrains& grains, const std::vector<std::
   return count > most_named ? list + " and " + std::to_string(count - most_named) + " more" : list;
 }
 
-}  // namespace
-
-Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels) {
-  if (grains.intersections == 0) return {};
-  std::vector<std::string> names;
-  for (const Label label : labels) names.push_back(std::to_string(label));
-  return std::to_string(grains.intersections) +
-         " pairs of triangles intersect, in thin parts of the grains " +
-         intersecting(grains, names) + ". Give a smaller " + mention(edge_length_option) +
-         ", or segment the volume with less noise.";
+/// `kind`: of the bodies, such as "grain". `names`: theirs.
+std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::string& kind,
+                                  const std::vector<std::string>& names, const Sentence& remedy) {
+  constexpr double least_angle = 5.0;  // degrees
+  std::vector<Sentence> warnings;
+  if (grains.intersections > 0) {
+    warnings.push_back(std::to_string(grains.intersections) +
+                       " pairs of triangles intersect, in thin parts of the " + kind + "s " +
+                       intersecting(grains, names) + ". Give a smaller " +
+                       mention(edge_length_option) + remedy);
+  }
+  if (grains.flattest >= 0 && grains.smallest_angle < least_angle) {
+    warnings.push_back("The smallest angle of a triangle is " +
+                       format_number(grains.smallest_angle, 3) + " degrees, at " + kind + " " +
+                       names[index(grains.flattest)] +
+                       ". Tetrahedra there are as flat, and simulations with them become slow or "
+                       "inaccurate. Give another " +
+                       mention(edge_length_option) + remedy);
+  }
+  return warnings;
 }
 
-Sentence intersection_warning(const ConformingGrains& fragments) {
-  if (fragments.intersections == 0) return {};
+}  // namespace
+
+std::vector<Sentence> conforming_warnings(const ConformingGrains& grains,
+                                          const std::vector<Label>& labels) {
+  std::vector<std::string> names;
+  for (const Label label : labels) names.push_back(std::to_string(label));
+  return warnings_of(grains, "grain", names, ", or segment the volume with less noise.");
+}
+
+std::vector<Sentence> conforming_warnings(const ConformingGrains& fragments) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= fragments.grains.size(); ++k) names.push_back(std::to_string(k));
-  return std::to_string(fragments.intersections) +
-         " pairs of triangles intersect, in thin parts of the fragments " +
-         intersecting(fragments, names) + ". Give a smaller " + mention(edge_length_option) +
-         " or more nodes.";
+  return warnings_of(fragments, "fragment", names, " or more nodes.");
 }
 
 }  // namespace wscvt

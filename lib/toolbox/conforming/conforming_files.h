@@ -42,11 +42,12 @@ std::string conforming_csv(const ConformingGrains& grains, const std::vector<Lab
 /// Returns lines for a log, of grains of voxels or of fragments.
 std::vector<std::string> conforming_lines(const ConformingGrains& grains);
 
-/// Returns a sentence for the user about triangles that intersect, with the grains that have them;
-/// empty if none do.
-Sentence intersection_warning(const ConformingGrains& grains, const std::vector<Label>& labels);
+/// Returns sentences for the user about triangles that intersect, with the grains that have them,
+/// and about slivers.
+std::vector<Sentence> conforming_warnings(const ConformingGrains& grains,
+                                          const std::vector<Label>& labels);
 
 /// The same of remeshed fragments, which have the numbers from 1 on.
-Sentence intersection_warning(const ConformingGrains& fragments);
+std::vector<Sentence> conforming_warnings(const ConformingGrains& fragments);
 
 }  // namespace wscvt

@@ -2,7 +2,10 @@
 #include "toolbox/conforming/conforming_grains.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -76,20 +79,45 @@ void measure_edges(ConformingGrains& result) {
   // Each edge as often as it is in triangles.
   double sum = 0.0;
   double squares = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  double flattest = -1.0;  // cosine
   for (const WallTriangle& t : result.triangles) {
+    std::array<Vector3, 3> x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = result.points[index(t.corners[k])];
     for (std::size_t k = 0; k < 3; ++k) {
-      const double square =
-          (result.points[index(t.corners[k])] - result.points[index(t.corners[following(k)])])
-              .squaredNorm();
+      const double square = (x[k] - x[following(k)]).squaredNorm();
       sum += std::sqrt(square);
       squares += square;
+      least = std::min(least, square);
     }
+    const double cosine = largest_corner_cosine(x[0], x[1], x[2]);
+    if (cosine <= flattest) continue;
+    flattest = cosine;
+    result.flattest = t.inner;
   }
+  constexpr double degrees = 57.29577951308232;
+  result.smallest_angle = degrees * portable::acos(std::min(1.0, flattest));
+  result.shortest_edge = std::sqrt(least);
   const auto count = 3.0 * static_cast<double>(result.triangles.size());
   result.mean_edge = sum / count;
   result.edge_variation =
       std::sqrt(std::max(0.0, squares / count - result.mean_edge * result.mean_edge)) /
       result.mean_edge;
+}
+
+/// The grains on both sides of faces of voxels, the first below the second.
+using TouchingGrains = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+TouchingGrains touching_grains(const GrainVoxels& voxels) {
+  TouchingGrains touching;
+  for (const std::size_t step : voxels.steps()) {
+    for (std::size_t k = step; k < voxels.grain.size(); ++k) {
+      const std::int32_t a = voxels.grain[k - step];
+      const std::int32_t b = voxels.grain[k];
+      if (a >= 0 && b >= 0 && a != b) touching.emplace(std::min(a, b), std::max(a, b));
+    }
+  }
+  return touching;
 }
 
 /// Makes all grains well-composed and of one piece. Returns the number of changed voxels.
@@ -177,6 +205,7 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   }
   execution.report(0.0, "Finding the pieces of the grains");
   const std::vector<GrainPieces> pieces = keep_largest_pieces(voxels, grains);
+  const TouchingGrains touching = touching_grains(voxels);
   remove_thin_parts(voxels);
   const std::vector<GrainPieces> cleaned = keep_largest_pieces(voxels, grains);
   ConformingGrains result;
@@ -211,6 +240,10 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
                                                 : edges_below(edge, volumes);
   remesh_walls(dense, volumes, std::move(edges), std::vector<double>(grains, voxel), options.nodes,
                false, result, execution.part(0.4, 1.0));
+  std::size_t kept = 0;
+  for (const CommonWall& wall : result.walls) kept += touching.count({wall.first, wall.second});
+  result.walls_across = result.walls.size() - kept;
+  result.lost_walls = touching.size() - kept;
   return result;
 }
 

@@ -61,6 +61,11 @@ struct ConformingGrains : WallComplex {
   std::size_t intersections = 0;   ///< pairs of triangles that are left
   double mean_edge = 0.0;          ///< length
   double edge_variation = 0.0;     ///< standard deviation over mean
+  double shortest_edge = 0.0;      ///< length
+  double smallest_angle = 0.0;     ///< of the triangles; degrees
+  std::int32_t flattest = -1;      ///< a grain with this angle
+  std::size_t walls_across = 0;    ///< between labels that do not touch
+  std::size_t lost_walls = 0;      ///< between labels that touch: narrow ones vanished
   double volume_error = 0.0;       ///< largest, relative
 };
 
@@ -75,7 +80,8 @@ struct ConformingGrains : WallComplex {
 /// large against it; a grain whose volume is that of a cube of less than two edges along a side has
 /// shorter ones. With `nodes` each grain has its own edge length, at a wall the geometric mean of
 /// both; a wall's nodes count for both grains, so the numbers are only near the wanted one, and no
-/// edges are below a voxel's. Triangles that intersect are parted as finish_walls says;
+/// edges are below a voxel's. Walls and lines narrower than a quarter of an edge vanish; the grains
+/// touch in a line or point there. Triangles that intersect are parted as finish_walls says;
 /// `intersections` counts those that are left, usually at contacts of few faces of voxels. The
 /// result does not depend on the number of threads. Throws Error: InvalidInput without grains, for
 /// a grain without voxels, and for an edge length below a voxel's; NumericalFailure as

@@ -172,10 +172,7 @@ bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::arr
   const Vector3 before = normal_of(t);
   const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
   const double shape = evenness(x[0], x[1], x[2]);
-  if (shape < least &&
-      shape < evenness(points[index(now[0])], points[index(now[1])], points[index(now[2])])) {
-    return false;
-  }
+  if (shape < least && shape < evenness_of(t)) return false;
   const double cosine = agreement(corners, after);
   if (cosine > 1.5) return after.dot(before) > turn * after.norm() * before.norm();
   return cosine > least_agreement || cosine > agreement(now, before);
@@ -189,8 +186,12 @@ Vector3 WallMesh::normal_of(std::size_t t) const {
 bool WallMesh::is_sliver(std::size_t t) const {
   if (!drops_walls) return false;
   constexpr double flat = 1e-3;  // then the height is as small against the edges
+  return evenness_of(t) < flat;
+}
+
+double WallMesh::evenness_of(std::size_t t) const {
   const Triangle& c = triangles[t].corners;
-  return evenness(points[index(c[0])], points[index(c[1])], points[index(c[2])]) < flat;
+  return evenness(points[index(c[0])], points[index(c[1])], points[index(c[2])]);
 }
 
 bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,

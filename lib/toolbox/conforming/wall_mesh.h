@@ -55,6 +55,9 @@ class WallMesh : public WallComplex {  // dead triangles have the corner -1
   /// and the surface does not bend more. Returns whether it did.
   bool flip(std::int32_t a, std::int32_t b);
 
+  /// Returns 1 for a triangle of even edges, 0 for a flat one.
+  double evenness_of(std::size_t t) const;
+
   /// Whether the two triangles of an edge within a wall are in one plane, or one has no area.
   bool is_flat(std::int32_t a, std::int32_t b) const;
 

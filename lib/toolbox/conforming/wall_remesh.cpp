@@ -18,6 +18,11 @@ constexpr double shortest_share = 4.0 / 5.0;
 // Of the wanted length: walls that are narrower and lines that are shorter leave flat tetrahedra.
 constexpr double narrow_share = 0.4;
 
+// Of the wanted length: edges that are shorter leave slivers beside them, also among voxels.
+constexpr double tiny_share = 0.25;
+
+constexpr double flat_evenness = 0.1;  ///< angles of about 2 or 4 degrees
+
 // Triangles do not become flatter, see WallMesh::collapse.
 constexpr double least_evenness = 0.33;
 
@@ -49,8 +54,8 @@ double WallRemesher::wanted(std::int32_t a, std::int32_t b) const {
 void WallRemesher::collapse_short(double most) {
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
-      std::int32_t a = mesh_.triangles[t].corners[k];
-      std::int32_t b = mesh_.triangles[t].corners[following(k)];
+      const std::int32_t a = mesh_.triangles[t].corners[k];
+      const std::int32_t b = mesh_.triangles[t].corners[following(k)];
       const double square = (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm();
       if (square > most * most) continue;
       const double length = wanted(a, b);
@@ -63,20 +68,40 @@ void WallRemesher::collapse_short(double most) {
         }
       }
       if (square > limit * limit) continue;
-      if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
-      const bool is_between = mesh_.places[index(a)] == mesh_.places[index(b)];
-      const Vector3 position =
-          is_between ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
-                     : mesh_.points[index(b)];
       // The shorter the edge, the flatter are its own triangles, and the flatter may others become.
       // Sheets beside thin gaps of voxels would intersect then.
       const double evenness =
           mesh_.drops_walls ? std::min(least_evenness, std::sqrt(square) / length) : least_evenness;
-      if (mesh_.collapse(a, b, position, longest_share * std::min(length, 2.0 * most), evenness)) {
-        k = 3;
-      }
+      if (join(a, b, longest_share * std::min(length, 2.0 * most), evenness)) k = 3;
     }
   }
+}
+
+void WallRemesher::collapse_narrow() {
+  const bool drops_walls = mesh_.drops_walls;
+  mesh_.drops_walls = true;
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
+      const std::int32_t a = mesh_.triangles[t].corners[k];
+      const std::int32_t b = mesh_.triangles[t].corners[following(k)];
+      const double length = wanted(a, b);
+      const bool is_flat = mesh_.evenness_of(t) < flat_evenness;
+      const double limit = (is_flat ? narrow_share : tiny_share) * length;
+      if ((mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm() > limit * limit) continue;
+      // Longer edges and flatter triangles than elsewhere: nothing else takes such an edge away.
+      if (join(a, b, 2.0 * length, flat_evenness)) k = 3;
+    }
+  }
+  mesh_.drops_walls = drops_walls;
+}
+
+bool WallRemesher::join(std::int32_t a, std::int32_t b, double longest, double evenness) {
+  if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
+  const bool is_between = mesh_.places[index(a)] == mesh_.places[index(b)];
+  const Vector3 position = is_between
+                               ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
+                               : mesh_.points[index(b)];
+  return mesh_.collapse(a, b, position, longest, evenness);
 }
 
 void WallRemesher::split_long() {
@@ -286,6 +311,7 @@ void WallRemesher::run(const std::vector<double>& least, int nodes, const Execut
     }
   }
   improve(2, execution);
+  collapse_narrow();
   for (int round = 0; round < 3; ++round) {
     flip_all();
     relax(2, execution);

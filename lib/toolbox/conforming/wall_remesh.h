@@ -34,6 +34,10 @@ class WallRemesher {
   double edge_of(const WallTriangle& t) const;
   double wanted(std::int32_t a, std::int32_t b) const;
   void collapse_short(double most);
+  /// Takes away what is left of walls and lines of few voxels, and the walls with it.
+  void collapse_narrow();
+  /// Joins the ends of an edge, see WallMesh::collapse. Returns whether it did.
+  bool join(std::int32_t a, std::int32_t b, double longest, double evenness);
   void split_long();
   void flip_all();
   void flip_flat();
