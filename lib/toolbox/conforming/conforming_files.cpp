@@ -220,10 +220,11 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
     const double share = static_cast<double>(grains.gained_voxels) / static_cast<double>(voxels);
     lines.push_back("Gaps a voxel wide: " + std::to_string(grains.gained_voxels) + " voxels, " +
                     format_percent(share) + " of the grains, went to the grains beside them");
-    lines.push_back(
-        "Walls between labels that do not touch: " + std::to_string(grains.walls_across) +
-        ". Labels that touch without a wall: " + std::to_string(grains.lost_walls) +
-        (grains.lost_walls == 1 ? " pair" : " pairs"));
+    if (grains.walls_across + grains.lost_walls > 0)
+      lines.push_back(
+          "Walls between labels that do not touch: " + std::to_string(grains.walls_across) +
+          ". Labels that touch without a wall: " + std::to_string(grains.lost_walls) +
+          (grains.lost_walls == 1 ? " pair" : " pairs"));
   }
   const std::string error = format_error(100.0 * grains.volume_error);
   lines.push_back("Volumes: " +
