@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_volume.h"
+#include "toolbox/volume/segmentation.h"
 
 namespace wscvt {
 
@@ -19,19 +21,34 @@ struct Phases {
 /// Contrast of the values that even_contrast returns.
 inline constexpr std::uint16_t even_full = 1000;
 
+struct EvenContrast {
+  std::vector<std::uint16_t> grey;
+  /// The means of grains with two steps, those that go on and those that turn back, if there are
+  /// such.
+  std::vector<EdgeSteps> steps;
+};
+
+/// The volume of even_contrast: the material by one level for all.
+struct LevelledVolume {
+  const std::vector<std::uint16_t>& grey;     ///< smoothed, x fastest
+  const std::vector<std::uint8_t>& mask;      ///< the material
+  const std::vector<std::uint8_t>& left_out;  ///< 1: neither void nor material; empty: none
+  VoxelCounts counts;
+  std::array<double, 3> spacing;  ///< edges of a voxel
+  double level = 0.0;
+};
+
 /// Returns grey values in which the void is 0 and each grain is `even_full`, so that the surface of
 /// each is at half of this. With one level for all, grains brighter than others come out too large:
 /// the level is in the outer part of their blurred edge.
 ///
-/// `grey`: smoothed, x fastest. `mask`: the material by one level for all. `left_out`: 1 for voxels
-/// that are neither void nor material; empty: none. `basins`: of the mask with its holes filled,
-/// with distances to the void. The grey value of a basin is that of a shell below its surface, in
-/// the phase that is nearest to the void there: not that of an inclusion. That of the void is
-/// measured away from grains. `voxel`: edge of a voxel, a length. Only voxels near the surface of
+/// `scan`: grey values that are not smoothed. `basins`: of the mask with its holes filled, with
+/// distances to the void. The grey value of a basin is that of a shell below its surface, in the
+/// phase that is nearest to the void there: not that of an inclusion. If the mean grey values
+/// across its surface fall again, it is that of the outer layer, which may be thinner than what
+/// smoothing leaves. That of the void is measured away from grains. Only voxels near the surface of
 /// the mask change sides.
-std::vector<std::uint16_t> even_contrast(const std::vector<std::uint16_t>& grey,
-                                         const std::vector<std::uint8_t>& mask,
-                                         const std::vector<std::uint8_t>& left_out, Basins basins,
-                                         const VoxelCounts& counts, double voxel, Phases phases);
+EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
+                           Basins basins, Phases phases);
 
 }  // namespace wscvt

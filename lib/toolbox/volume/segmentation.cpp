@@ -285,6 +285,23 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
   return counts;
 }
 
+/// Returns whether noise is more than a few percent of the contrast.
+bool is_noisy(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
+              const VoxelCounts& sizes) {
+  std::vector<std::uint64_t> differences(counts.size(), 0);
+  const auto width = static_cast<std::size_t>(sizes[0]);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (k % width > 0) {
+      ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
+    }
+  }
+  const auto is_some = [](std::uint64_t count) { return count > 0; };
+  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return true;
+  constexpr double little = 0.04;
+  return static_cast<double>(quantile_of(differences, 0.5)) >
+         little * contrast_at(counts, level_between_peaks(counts));
+}
+
 /// Smooths on if the grey values have one peak, because of noise, until they have two. If they
 /// never do, they stay as they are.
 void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
@@ -299,6 +316,11 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
       grey = std::move(smoother);
       counts = std::move(found);
       result.medians = medians;
+      return;
+    }
+    // Thin grains, and those with a large pore, have no peak inside without noise either.
+    if (medians == 1 && !is_noisy(grey, counts.all, sizes) && peaks_of(counts.all).size() == 2) {
+      counts.inside = counts.all;
       return;
     }
     if (medians == most_medians) return;
@@ -363,20 +385,22 @@ std::optional<Phases> phases_of(const std::vector<GreyPeak>& peaks, double level
 }
 
 /// Returns the material with the surface of each grain half way from its own grey value to the
-/// void, from that by one level.
-std::vector<std::uint8_t> material_of_each(const std::vector<std::uint16_t>& grey,
-                                           const std::vector<std::uint8_t>& mask,
-                                           const std::vector<std::uint8_t>& outside,
+/// void, from that by one level. Sets `steps` to those across the surfaces. `unsmoothed`: returns
+/// the grey values of the scan.
+template <class Unsmoothed>
+std::vector<std::uint8_t> material_of_each(const LevelledVolume& volume,
                                            const VolumeGeometry& geometry, const Phases& phases,
-                                           int medians, const Execution& execution) {
-  std::vector<std::uint8_t> filled = mask;
+                                           int medians, const Unsmoothed& unsmoothed,
+                                           std::vector<EdgeSteps>& steps,
+                                           const Execution& execution) {
+  std::vector<std::uint8_t> filled = volume.mask;
   fill_holes(filled, geometry.counts, execution.part(0.0, 0.1));
   Basins basins = fine_basins(filled, geometry, execution.part(0.1, 0.9));
   filled = {};
-  const std::vector<std::uint16_t> even = even_contrast(
-      grey, mask, outside, std::move(basins), geometry.counts, voxel_length(geometry), phases);
-  return level_mask(even, outside, geometry.counts, {0.5 * even_full, even_full, false, medians},
-                    execution.part(0.9, 1.0));
+  EvenContrast even = even_contrast(volume, unsmoothed(), std::move(basins), phases);
+  steps = std::move(even.steps);
+  return level_mask(even.grey, volume.left_out, geometry.counts,
+                    {0.5 * even_full, even_full, false, medians}, execution.part(0.9, 1.0));
 }
 
 /// Adds the wall of a container among material to what is left out; whether there is one.
@@ -400,7 +424,8 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       const SegmentationOptions& options, Segmentation& result,
                                       const Execution& execution) {
   const VoxelCounts& sizes = scan.geometry().counts;
-  ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
+  const std::vector<std::uint8_t> outside = left_out;
+  ShortGrey values = short_grey(scan, range, outside, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
   GreyCounts counts = counts_of(grey, left_out, sizes);
@@ -441,8 +466,21 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   const std::optional<Phases> phases =
       phases_of(peaks, (result.threshold - base) / step, options.dark);
   if (!phases) return mask;
-  return material_of_each(grey, mask, left_out, scan.geometry(), *phases, result.medians,
-                          execution.part(0.55, 1.0));
+  const Vector3 spacing = scan.geometry().axes.colwise().norm();
+  const LevelledVolume volume = {grey,
+                                 mask,
+                                 left_out,
+                                 sizes,
+                                 {spacing[0], spacing[1], spacing[2]},
+                                 (result.threshold - base) / step};
+  mask = material_of_each(
+      volume, scan.geometry(), *phases, result.medians,
+      [&] { return short_grey(scan, range, outside, execution.part(0.9, 0.92)).grey; },
+      result.steps, execution.part(0.55, 0.9));
+  for (EdgeSteps& steps : result.steps) {
+    for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;
+  }
+  return mask;
 }
 
 /// Returns whether each label of a volume is within two voxels of one that was not scanned.

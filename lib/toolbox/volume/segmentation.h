@@ -58,6 +58,19 @@ inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     1,          std::numeric_limits<std::int64_t>::max(),
     Ends::Both, "smaller grains are dropped"};
 
+/// Two steps of grey values across the surface of grains, such as of a coat, a film or a core: the
+/// void, a layer, and what is below it.
+struct EdgeSteps {
+  double space = 0.0;
+  double layer = 0.0;
+  double inside = 0.0;
+  double thickness = 0.0;  ///< of the layer; voxels
+  double share = 0.0;      ///< of the surface of all grains
+
+  /// The grey values go on from the void beyond the layer; otherwise they turn back.
+  bool goes_on() const { return (layer > space) == (inside > layer); }
+};
+
 /// Result of segment.
 struct Segmentation {
   /// Grains from 1, each of one part, in the order in which they begin; 0 between them; dropped
@@ -75,6 +88,8 @@ struct Segmentation {
   std::optional<double> film;
   /// Voxels of the film that count as material, an estimate.
   std::uint64_t film_voxels = 0;
+  /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
+  std::vector<EdgeSteps> steps;
   int medians = 1;                ///< so often the grey values were smoothed; more for noise
   std::uint64_t not_scanned = 0;  ///< voxels outside of what was scanned, see not_scanned
   std::uint64_t wall = 0;         ///< voxels of the wall of a container, which is no material

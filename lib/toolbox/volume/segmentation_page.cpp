@@ -174,8 +174,47 @@ double median_radius(const Segmentation& segmentation) {
   return portable::cbrt(0.75 / pi * static_cast<double>(*middle));
 }
 
+/// Adds what two steps across the surfaces may be. Returns whether the grey values go on beyond a
+/// layer, so that there are two outlines to choose from.
+bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  bool goes_on = false;
+  for (const EdgeSteps& steps : segmentation.steps) {
+    constexpr double few = 0.1;
+    if (steps.share < few) continue;
+    const std::string layer = "a layer about " + format_number(steps.thickness, 2) +
+                              " voxels thick at the surface of " + format_percent(steps.share) +
+                              " of the grains is near " + format_number(steps.layer, 4);
+    const std::string values = ", the void near " + format_number(steps.space, 4) +
+                               " and the inside near " + format_number(steps.inside, 4);
+    const auto between = [](double a, double b) {
+      return mention("threshold", format_number(0.5 * (a + b), 4));
+    };
+    if (steps.goes_on()) {
+      goes_on = true;
+      doubts.push_back(
+          "Grey values change in two steps from the void to the inside of grains: " + layer +
+          values +
+          ". It may be a film of water, which is no grain, or the outer part of grains with a coat "
+          "or a dense core. The outlines may lie on either step or between them. For grains with "
+          "the layer, segment once more by " +
+          between(steps.space, steps.layer) + "; for grains without it, by " +
+          between(steps.layer, steps.inside) + ".");
+    } else {
+      doubts.push_back("Grains differ more from the void at their surface than inside: " + layer +
+                       values +
+                       ". It may be a coat, beam hardening, phase contrast, or the grain around a "
+                       "pore. The outlines are half way from the void to the layer, as by " +
+                       between(steps.space, steps.layer) +
+                       ". Of a layer of 2 voxels they are less exact: look at the slices.");
+    }
+  }
+  return goes_on;
+}
+
 /// Adds how much too large or too small grains come out.
 void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  // A layer says more of the edges than the histogram and the blur.
+  if (add_steps(segmentation, doubts)) return;
   const double radius = median_radius(segmentation);
   constexpr double small = 0.05;
   if (segmentation.film && segmentation.material > 2 * segmentation.film_voxels) {
