@@ -20,6 +20,7 @@
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/fabric/fabric_page.h"
 #include "toolbox/sample/csv_reader.h"
+#include "toolbox/volume/segmentation.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -390,6 +391,58 @@ TEST_F(FabricOfAFile, MeasuresTheBlurOfTheScanItself) {
   }
 }
 
+/// Two equal ellipsoids of revolution about the line through their centres, in grey values. Their
+/// contact is a disc.
+struct TwoEllipsoids {
+  double along;   ///< semi-axis
+  double across;  ///< semi-axis
+  double overlap = 2.0;
+
+  double area() const {
+    const double to_disc = 1.0 - 0.5 * overlap / along;
+    return pi * across * across * (1.0 - to_disc * to_disc);
+  }
+  MadeVolume scan(double deviation, std::mt19937& random) const {
+    const Vector3 n = Vector3(5.0, 2.0, 1.0).normalized();
+    MadeVolume made({84, 60, 52});
+    const Vector3 middle(41.7, 29.6, 25.8);
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 centre = middle + side * (along - 0.5 * overlap) * n;
+      made.fill(1, [&](const Vector3& p) {
+        const double t = (p - centre).dot(n);
+        const double rest = (p - centre).squaredNorm() - t * t;
+        return t * t / (along * along) + rest / (across * across) < 1.0;
+      });
+    }
+    const std::vector<double> values = blurred(made, deviation);
+    std::normal_distribution<double> noise(0.0, 4.0);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const double grey = std::clamp(60.0 + 120.0 * values[k] + noise(random), 0.0, 255.0);
+      made.labels[k] = static_cast<std::uint32_t>(std::lround(grey));
+    }
+    return made;
+  }
+};
+
+// Tips have a small ring, flat sides a wide one, at the same volume.
+TEST_F(FabricOfAFile, MeasuresTipsAndFlatSidesInASegmentedScan) {
+  std::mt19937 random(41);
+  for (const TwoEllipsoids& grains :
+       {TwoEllipsoids{18.0, 13.0}, TwoEllipsoids{15.0, 15.0}, TwoEllipsoids{12.0, 17.0}}) {
+    write_labels(grains.scan(0.8, random), "scan.nrrd");
+    const auto scan = open_volume(path("scan.nrrd"));
+    const Segmentation found = segment(*scan, {}, Execution(2));
+    FabricOptions options;
+    options.scan = scan.get();
+    const Fabric fabric = measure_fabric(*found.labels, options, Execution(1));
+    ASSERT_EQ(fabric.contacts.size(), 1U) << grains.along;
+    const FabricContact& contact = fabric.contacts[0];
+    EXPECT_NEAR(contact.area / grains.area(), 1.0, 0.15) << grains.along;
+    EXPECT_EQ(fabric.contact_area, contact.area);
+    EXPECT_GT(fabric.contact_area_uncertainty, contact.area_uncertainty);
+  }
+}
+
 TEST_F(FabricOfAFile, RefusesWhatHasNoContacts) {
   const auto refused = [&](const std::string& labels, const std::string& scan = "") {
     return test::refusal(ErrorCode::InvalidInput, [&] { measured(labels, scan); });
@@ -522,6 +575,11 @@ TEST_F(FabricOfAFile, WritesWhatItMeasured) {
   ASSERT_EQ(areas.size(), 3U);
   EXPECT_EQ(areas[1].back(), format_number(all, 4));
   EXPECT_EQ(areas[2].back(), format_number(raw, 4));
+  EXPECT_NEAR(fabric.contact_area, all, 1e-9 * all);
+  EXPECT_NE(page.find("Projected area of the contacts " + format_number(all, 4) +
+                      " mm^2, standard uncertainty " +
+                      format_number(fabric.contact_area_uncertainty, 4) + " mm^2; of all pairs"),
+            std::string::npos);
   // All three normals lie within ten degrees of x, so the first or the last sector has them.
   EXPECT_NE(page.find("outer circle: "), std::string::npos);
 }

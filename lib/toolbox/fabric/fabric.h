@@ -81,6 +81,10 @@ struct Fabric {
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();
   /// The same of the branch vectors' directions.
   Eigen::Matrix3d branch_tensor = Eigen::Matrix3d::Zero();
+  /// Sum over the contacts, corrected. The width of the ring errs for all of them alike, so that
+  /// the sum is less certain than the single uncertainties tell. length^2
+  double contact_area = 0.0;
+  double contact_area_uncertainty = 0.0;
   std::size_t contact_count = 0;
   std::size_t closed_count = 0;  ///< of them, those that close on themselves
   std::size_t whole_grains = 0;  ///< grains that do not touch the border

@@ -153,11 +153,8 @@ std::vector<std::string> fabric_lines(const Fabric& fabric) {
   const std::string after = unit.empty() ? "" : " " + unit;
   const std::size_t pairs = fabric.contacts.size();
   double raw = 0.0;
-  double area = 0.0;
-  for (const FabricContact& contact : fabric.contacts) {
-    raw += contact.raw_area;
-    if (contact.is_contact) area += contact.area;
-  }
+  for (const FabricContact& contact : fabric.contacts) raw += contact.raw_area;
+  const std::string square = unit.empty() ? "" : after + "^2";
   std::vector<std::string> lines = {
       std::to_string(fabric.grains.size()) + " grains, " +
           std::to_string(fabric.grains.size() - fabric.whole_grains) + " of them at the border",
@@ -165,9 +162,9 @@ std::vector<std::string> fabric_lines(const Fabric& fabric) {
           (pairs == 1 ? " pair of labels touches: " : " pairs of labels touch: ") +
           std::to_string(fabric.contact_count) + " in contact, " +
           std::to_string(pairs - fabric.contact_count) + " with a narrow gap",
-      "Projected area of the contacts " + format_number(area, 4) + after +
-          (unit.empty() ? "" : "^2") + ", of all pairs as the labels have it " +
-          format_number(raw, 4) + after + (unit.empty() ? "" : "^2")};
+      "Projected area of the contacts " + format_number(fabric.contact_area, 4) + square +
+          ", standard uncertainty " + format_number(fabric.contact_area_uncertainty, 4) + square +
+          "; of all pairs as the labels have it " + format_number(raw, 4) + square};
   if (fabric.closed_count > 0) {
     lines.push_back(std::to_string(fabric.closed_count) +
                     (fabric.closed_count == 1 ? " wall closes on itself: its area is"
