@@ -378,22 +378,34 @@ std::array<FittedEdge, 2> fitted(const ProfilePoints& points, double blur) {
   return best;
 }
 
-/// Returns the blur of the better fit of two steps.
-double blur_of(const ProfilePoints& points) {
-  FittedEdge best;
-  for (int tenths = 4; tenths <= 16; ++tenths) {
-    const FittedEdge two = fitted(points, 0.1 * tenths)[1];
-    if (two.error < best.error) best = two;
+/// Blurs of the best fits of one step and of two, standard deviations in voxels.
+struct Blurs {
+  double of_one = 0.0;
+  double of_two = 0.0;
+};
+
+/// One step may be more blurred than two: without that, a soft scan would have a layer everywhere.
+Blurs blurs_of(const ProfilePoints& points) {
+  constexpr int least = 4;  // tenths of a voxel
+  constexpr int most_of_two = 16;
+  constexpr int most_of_one = 40;
+  FittedEdge one;
+  FittedEdge two;
+  for (int tenths = least; tenths <= most_of_one; ++tenths) {
+    const std::array<FittedEdge, 2> found = fitted(points, 0.1 * tenths);
+    if (found[0].error < one.error) one = found[0];
+    if (tenths <= most_of_two && found[1].error < two.error) two = found[1];
   }
-  return best.blur;
+  return {one.blur, two.blur};
 }
 
 /// Returns the two steps of a profile; empty: one step describes it, or there are too few values.
-std::optional<EdgeSteps> steps_of(const Profile& profile, double blur) {
+std::optional<EdgeSteps> steps_of(const Profile& profile, const Blurs& blurs) {
   const ProfilePoints points(profile);
   constexpr std::size_t fewest = 14;
   if (points.places.size() < fewest) return std::nullopt;
-  const auto [one, two] = fitted(points, blur);
+  const FittedEdge one = fitted(points, blurs.of_one)[0];
+  const FittedEdge two = fitted(points, blurs.of_two)[1];
   const EdgeSteps& steps = two.steps;
   const double contrast =
       std::max(std::abs(steps.layer - steps.space), std::abs(steps.inside - steps.space));
@@ -417,18 +429,18 @@ std::vector<EdgeSteps> use_layers(const std::vector<Profile>& profiles, const Ph
   for (const Profile& profile : profiles) all.add(profile);
   const ProfilePoints points(all);
   if (points.places.empty()) return {};
-  const double blur = blur_of(points);
+  const Blurs blurs = blurs_of(points);
   const double sign = phases.materials.front() < phases.space ? -1.0 : 1.0;
   std::array<Profile, 2> kinds;
   for (std::size_t label = 1; label < profiles.size(); ++label) {
-    const std::optional<EdgeSteps> steps = steps_of(profiles[label], blur);
+    const std::optional<EdgeSteps> steps = steps_of(profiles[label], blurs);
     if (!steps || sign * (steps->layer - steps->space) < 0.0) continue;
     kinds[steps->goes_on() ? 0 : 1].add(profiles[label]);
     if (!steps->goes_on()) plateaus[label] = steps->layer;
   }
   std::vector<EdgeSteps> found;
   for (const Profile& kind : kinds) {
-    std::optional<EdgeSteps> steps = steps_of(kind, blur);
+    std::optional<EdgeSteps> steps = steps_of(kind, blurs);
     if (!steps) continue;
     steps->share = kind.size() / all.size();
     found.push_back(*steps);

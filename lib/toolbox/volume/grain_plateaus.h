@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "toolbox/volume/edge_steps.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_volume.h"
-#include "toolbox/volume/segmentation.h"
 
 namespace wscvt {
 

@@ -395,9 +395,10 @@ std::vector<std::uint8_t> material_of_each(const LevelledVolume& volume,
                                            const Execution& execution) {
   std::vector<std::uint8_t> filled = volume.mask;
   fill_holes(filled, geometry.counts, execution.part(0.0, 0.1));
-  Basins basins = fine_basins(filled, geometry, execution.part(0.1, 0.9));
+  Basins basins = fine_basins(filled, geometry, execution.part(0.1, 0.85));
   filled = {};
-  EvenContrast even = even_contrast(volume, unsmoothed(), std::move(basins), phases);
+  EvenContrast even =
+      even_contrast(volume, unsmoothed(execution.part(0.85, 0.9)), std::move(basins), phases);
   steps = std::move(even.steps);
   return level_mask(even.grey, volume.left_out, geometry.counts,
                     {0.5 * even_full, even_full, false, medians}, execution.part(0.9, 1.0));
@@ -475,8 +476,8 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                  (result.threshold - base) / step};
   mask = material_of_each(
       volume, scan.geometry(), *phases, result.medians,
-      [&] { return short_grey(scan, range, outside, execution.part(0.9, 0.92)).grey; },
-      result.steps, execution.part(0.55, 0.9));
+      [&](const Execution& reading) { return short_grey(scan, range, outside, reading).grey; },
+      result.steps, execution.part(0.55, 1.0));
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "toolbox/volume/edge_steps.h"
 #include "toolbox/volume/label_census.h"
 #include "toolbox/volume/label_volume.h"
 #include "wscvt/base/execution.h"
@@ -57,19 +58,6 @@ inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     "smallest", "number of voxels of the smallest grain",
     1,          std::numeric_limits<std::int64_t>::max(),
     Ends::Both, "smaller grains are dropped"};
-
-/// Two steps of grey values across the surface of grains, such as of a coat, a film or a core: the
-/// void, a layer, and what is below it.
-struct EdgeSteps {
-  double space = 0.0;
-  double layer = 0.0;
-  double inside = 0.0;
-  double thickness = 0.0;  ///< of the layer; voxels
-  double share = 0.0;      ///< of the surface of all grains
-
-  /// The grey values go on from the void beyond the layer; otherwise they turn back.
-  bool goes_on() const { return (layer > space) == (inside > layer); }
-};
 
 /// Result of segment.
 struct Segmentation {

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace wscvt {
+
+/// Two steps of grey values across the surface of grains, such as of a coat, a film or a core: the
+/// void, a layer, and what is below it.
+struct EdgeSteps {
+  double space = 0.0;
+  double layer = 0.0;
+  double inside = 0.0;
+  double thickness = 0.0;  ///< of the layer; voxels
+  double share = 0.0;      ///< of the surface of all grains
+
+  /// The grey values go on from the void beyond the layer; otherwise they turn back.
+  bool goes_on() const { return (layer > space) == (inside > layer); }
+};
+
+}  // namespace wscvt
