@@ -10,7 +10,7 @@ struct EdgeSteps {
   double layer = 0.0;
   double inside = 0.0;
   double thickness = 0.0;  ///< of the layer; voxels
-  double share = 0.0;      ///< of the surface of all grains
+  double fraction = 0.0;   ///< of the surface of all grains
 
   /// The grey values go on from the void beyond the layer; otherwise they turn back.
   bool goes_on() const { return (layer > space) == (inside > layer); }

@@ -442,7 +442,7 @@ std::vector<EdgeSteps> use_layers(const std::vector<Profile>& profiles, const Ph
   for (const Profile& kind : kinds) {
     std::optional<EdgeSteps> steps = steps_of(kind, blurs);
     if (!steps) continue;
-    steps->share = kind.size() / all.size();
+    steps->fraction = kind.size() / all.size();
     found.push_back(*steps);
   }
   return found;

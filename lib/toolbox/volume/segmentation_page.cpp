@@ -180,9 +180,9 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
   bool goes_on = false;
   for (const EdgeSteps& steps : segmentation.steps) {
     constexpr double few = 0.1;
-    if (steps.share < few) continue;
+    if (steps.fraction < few) continue;
     const std::string layer = "a layer about " + format_number(steps.thickness, 2) +
-                              " voxels thick at the surface of " + format_percent(steps.share) +
+                              " voxels thick at the surface of " + format_percent(steps.fraction) +
                               " of the grains is near " + format_number(steps.layer, 4);
     const std::string values = ", the void near " + format_number(steps.space, 4) +
                                " and the inside near " + format_number(steps.inside, 4);
