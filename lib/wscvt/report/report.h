@@ -32,7 +32,8 @@ std::vector<Sentence> report_warnings(const RemeshResult& result);
 
 /// Returns lines of plain text for a log: input counts and repairs, overhang, fit degree and
 /// residual, iterations and why they stopped, N and faces, quality before and after, the table
-/// descriptor / scan / remesh / error %, report_warnings. The decimal sign is a point in every locale.
+/// descriptor / scan / remesh / error %, report_warnings. The decimal sign is a point in every
+/// locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
 /// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of

@@ -305,7 +305,8 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
            {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }
-  for (const std::string& warning : report_warnings(result)) lines.push_back(line("Warning", warning));
+  for (const std::string& warning : report_warnings(result))
+    lines.push_back(line("Warning", warning));
   return lines;
 }
 
