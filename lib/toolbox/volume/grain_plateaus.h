@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "toolbox/volume/edge_steps.h"
+#include "toolbox/volume/edge_profiles.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_volume.h"
 
@@ -26,16 +25,6 @@ struct EvenContrast {
   /// The means of grains with two steps, those that go on and those that turn back, if there are
   /// such.
   std::vector<EdgeSteps> steps;
-};
-
-/// The volume of even_contrast: the material by one level for all.
-struct LevelledVolume {
-  const std::vector<std::uint16_t>& grey;     ///< smoothed, x fastest
-  const std::vector<std::uint8_t>& mask;      ///< the material
-  const std::vector<std::uint8_t>& left_out;  ///< 1: neither void nor material; empty: none
-  VoxelCounts counts;
-  std::array<double, 3> spacing;  ///< edges of a voxel
-  double level = 0.0;
 };
 
 /// Returns grey values in which the void is 0 and each grain is `even_full`, so that the surface of

@@ -425,8 +425,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       const SegmentationOptions& options, Segmentation& result,
                                       const Execution& execution) {
   const VoxelCounts& sizes = scan.geometry().counts;
-  const std::vector<std::uint8_t> outside = left_out;
-  ShortGrey values = short_grey(scan, range, outside, execution.part(0.0, 0.1));
+  ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
   GreyCounts counts = counts_of(grey, left_out, sizes);
@@ -474,9 +473,11 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                  sizes,
                                  {spacing[0], spacing[1], spacing[2]},
                                  (result.threshold - base) / step};
+  // Smoothing hides thin layers. The scan is read again, because its values would add 2 bytes a
+  // voxel to the watershed's memory.
   mask = material_of_each(
       volume, scan.geometry(), *phases, result.medians,
-      [&](const Execution& reading) { return short_grey(scan, range, outside, reading).grey; },
+      [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       result.steps, execution.part(0.55, 1.0));
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;
