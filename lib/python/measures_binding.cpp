@@ -33,13 +33,7 @@ py::object describe(const Points& vertices, const py::object& faces, const py::o
     const double share = voxel_size ? 0.5 : 1.0;
     GrainMeasures found =
         measure_grain(std::move(grain), std::move(original), options, execution.part(0.0, share));
-    if (voxel_size) {
-      ResolutionOptions resolution;
-      resolution.voxel_size = *voxel_size;
-      resolution.details = options;
-      found.resolution = measure_resolution(found.grain.checked.mesh, found.grain.descriptors,
-                                            resolution, execution.part(share, 1.0));
-    }
+    if (voxel_size) add_resolution(found, *voxel_size, options, execution.part(share, 1.0));
     return found;
   });
   return parsed(descriptor_json(measures));

@@ -9,8 +9,7 @@ std::string exit_code_text(bool some_may_fail) {
               ? "; 3 done, but some grains failed or more than 5 % of a volume was left out"
               : "") +
          "; 130 cancelled by SIGINT; 143 cancelled by SIGTERM. A message on the standard error "
-         "says "
-         "what to do.";
+         "says what to do.";
 }
 
 CLI::App& add_command(CLI::App& program, const CommandText& text) {

@@ -106,12 +106,7 @@ void describe_mesh(const DescribeArguments& arguments) {
   GrainMeasures measures = measure_grain(std::move(grain), std::move(reference), arguments.options,
                                          work.execution().part(reading_share, share));
   if (voxel_size) {
-    ResolutionOptions options;
-    options.voxel_size = *voxel_size;
-    options.details = arguments.options;
-    measures.resolution =
-        measure_resolution(measures.grain.checked.mesh, measures.grain.descriptors, options,
-                           work.execution().part(share, 1.0));
+    add_resolution(measures, *voxel_size, arguments.options, work.execution().part(share, 1.0));
   }
   write_reports(arguments, measures, work);
   for (const Sentence& remark : remarks(measures)) warnings.push_back(remark);

@@ -140,4 +140,13 @@ Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors
   return result;
 }
 
+void add_resolution(GrainMeasures& measures, double voxel_size, const DetailedOptions& details,
+                    const Execution& execution) {
+  ResolutionOptions options;
+  options.voxel_size = voxel_size;
+  options.details = details;
+  measures.resolution = measure_resolution(measures.grain.checked.mesh, measures.grain.descriptors,
+                                           options, execution);
+}
+
 }  // namespace wscvt

@@ -4,6 +4,7 @@
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/grain_measures.h"
 #include "wscvt/measures/voxel_resolution.h"
 
 namespace wscvt {
@@ -34,5 +35,10 @@ struct ResolutionOptions {
 /// options out of range or a grain of more than 20,000 voxels across; Error(Cancelled).
 Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors& descriptors,
                               const ResolutionOptions& options, const Execution& execution);
+
+/// Measures the resolution of a grain described by measure_grain, with the same `details`.
+/// `voxel_size`: edge of a voxel, > 0; length. Throws as measure_resolution.
+void add_resolution(GrainMeasures& measures, double voxel_size, const DetailedOptions& details,
+                    const Execution& execution);
 
 }  // namespace wscvt
