@@ -100,23 +100,6 @@ CensusStates census_states(const std::string& census) {
   return states;
 }
 
-std::string census_line(CensusStates states, const std::string& noun) {
-  const bool is_one_body = states["all"] == 1 && noun == "bodies";
-  const char* made = states["taken"] > 0 ? "taken" : "written";
-  std::string text = std::to_string(states["all"]) + (is_one_body ? " body" : " " + noun) + ": " +
-                     std::to_string(states[made]) + " " + made;
-  if (states["pieces"] > 0) text += " (" + std::to_string(states["pieces"]) + " in pieces)";
-  const auto add = [&](std::size_t count, const char* what) {
-    if (count > 0) text += ", " + std::to_string(count) + what;
-  };
-  add(states["at the border"], " at the border");
-  add(states["too small"], " too small");
-  add(states["open"], " open and only listed");
-  add(states["failed"], " failed");
-  add(states["pores"], states["pores"] == 1 ? " pore in them" : " pores in them");
-  return text;
-}
-
 Json json_of(const VolumeOptions& options) {
   Json json = Json::object();
   const auto put = [&](std::string_view key, const Json& value) { json[std::string(key)] = value; };

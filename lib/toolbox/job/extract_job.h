@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "toolbox/job/bodies.h"
 #include "toolbox/job/grain_job.h"
+#include "toolbox/report/sample_summary.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/option.h"
 #include "wscvt/measures/descriptors.h"
@@ -23,13 +23,8 @@ inline constexpr FlagOption describe_option = {
     "describe", "describe each grain",
     "in shape.csv, with the values without the error of the voxels"};
 
-/// Number of rows of a table of labels or bodies by their state, and of "all"; also the "pieces"
-/// that are written, and the "pores".
-using CensusStates = std::map<std::string, std::size_t>;
+/// Counts the rows of a table of labels or bodies.
 CensusStates census_states(const std::string& census);
-
-/// "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small". `noun`: "labels" or "bodies".
-std::string census_line(CensusStates states, const std::string& noun);
 
 /// Returns every option of a volume under the name that users type.
 Json json_of(const VolumeOptions& options);

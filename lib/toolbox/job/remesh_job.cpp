@@ -263,7 +263,6 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
   for (const JobFolder& folder : folders_of(job)) {
     SampleSummary summary = summarise_table(folder.table());
     summary.labels = labels;
-    if (!labels.empty()) summary.labels_line = census_line(labels, "labels");
     for (const char* ending : {".json", ".html"}) {
       write_summary(folder.file("summary", ending), summary,
                     [&](const std::string& grain) { return folder.file_of(grain); });

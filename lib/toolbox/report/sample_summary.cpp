@@ -321,6 +321,23 @@ Histogram histogram_of(const std::vector<double>& values) {
   return histogram;
 }
 
+std::string census_line(CensusStates states, const std::string& noun) {
+  const bool is_one_body = states["all"] == 1 && noun == "bodies";
+  const char* made = states["taken"] > 0 ? "taken" : "written";
+  std::string text = std::to_string(states["all"]) + (is_one_body ? " body" : " " + noun) + ": " +
+                     std::to_string(states[made]) + " " + made;
+  if (states["pieces"] > 0) text += " (" + std::to_string(states["pieces"]) + " in pieces)";
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) text += ", " + std::to_string(count) + what;
+  };
+  add(states["at the border"], " at the border");
+  add(states["too small"], " too small");
+  add(states["open"], " open and only listed");
+  add(states["failed"], " failed");
+  add(states["pores"], states["pores"] == 1 ? " pore in them" : " pores in them");
+  return text;
+}
+
 std::string summary_json(const SampleSummary& summary) {
   Json distributions = Json::object();
   for (const SampleDistribution& one : summary.distributions) {
@@ -359,7 +376,7 @@ std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_o
   HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
   page.add_paragraph(origin_sentence({}));
   page.add_paragraph(count_line(summary) + ".");
-  if (!summary.labels_line.empty()) page.add_paragraph(summary.labels_line + ".");
+  if (!summary.labels.empty()) page.add_paragraph(census_line(summary.labels, "labels") + ".");
   if (!summary.options.empty()) page.add_paragraph(options_line(summary));
   add_messages(page, "Failures", "error", summary.failures, summary.failed);
   add_messages(page, "Warnings", "warnings", summary.warned, summary.with_warnings);

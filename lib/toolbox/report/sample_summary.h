@@ -32,11 +32,16 @@ struct GrainDistance {
   double percent;  ///< rms distance in % of the equivalent radius
 };
 
+/// Numbers of labels or bodies by their state in a census, such as "at the border", and of "all";
+/// also of the "pieces" that are written, and of "pores".
+using CensusStates = std::map<std::string, std::size_t>;
+
+/// "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small". `noun`: "labels" or "bodies".
+std::string census_line(CensusStates states, const std::string& noun);
+
 /// Statistics of a sample's table (see sample_table.h).
 struct SampleSummary {
-  /// Labels of the sample's volumes by their state in labels.csv, and of "all"; empty: no volumes.
-  std::map<std::string, std::size_t> labels;
-  std::string labels_line;  ///< the same for people
+  CensusStates labels;  ///< of the sample's volumes; empty: none
   std::size_t grains = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
