@@ -193,6 +193,11 @@ TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
   for (const char* file : {"labels/bodies.csv", "labels/call.json", "bodies/labels.csv"}) {
     EXPECT_FALSE(exists(file)) << file;
   }
+  for (const std::string name : {"labels/labels.csv", "bodies/bodies.csv"}) {
+    const std::string before = content(name);
+    EXPECT_EQ(run("clump labels/3.ply -k 2 -q -o " + name).exit_code, 2) << name;
+    EXPECT_EQ(content(name), before);
+  }
   // Other files beside them.
   EXPECT_EQ(run("clump sample.nrrd -k 2 -o labels -q").exit_code, 0);
 }

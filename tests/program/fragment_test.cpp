@@ -94,6 +94,9 @@ TEST_F(FragmentCommand, ReplacesNoFragmentsOfAnotherGrain) {
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.errors.find("\"out\" has the fragments of another grain"), std::string::npos)
       << outcome.errors;
+  for (const std::string name : {"out/fragments.csv", "out/contacts.csv"}) {
+    EXPECT_EQ(run("clump grain.ply -k 2 -q -o " + name).exit_code, 2) << name;
+  }
   EXPECT_EQ(content("out/fragments.csv"), table);
   EXPECT_EQ(content("out/fragment_1.ply"), mesh);
   EXPECT_TRUE(exists("out/fragment_4.ply"));

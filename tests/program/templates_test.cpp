@@ -55,6 +55,10 @@ TEST_F(Templates, WritesMeshesTablesAndAScript) {
   for (const char* file : {"templates.csv", "sizes.csv", "distances.csv", "template-04.ply"}) {
     EXPECT_EQ(content(std::string("a/") + file), content(std::string("b/") + file)) << file;
   }
+  for (const std::string name : {"templates.csv", "sizes.csv", "distances.csv"}) {
+    EXPECT_EQ(run("clump a/template-01.ply -k 2 -q -o a/" + name).exit_code, 2) << name;
+    EXPECT_EQ(content("a/" + name), content("b/" + name));
+  }
 }
 
 TEST_F(Templates, AreMadeInPartsToo) {

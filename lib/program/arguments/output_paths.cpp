@@ -16,21 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a path names a file of the output folder of a batch, which the batch needs to continue,
-/// or which other commands read: the file of a grain, a table, a page or the call.
-bool is_kept_by_batch(const fs::path& path) {
-  const std::string stem = path.stem().string();
-  const std::string kind = stem.substr(0, stem.find('-'));
-  if (kind != "grains" && kind != "shape" && kind != "call" && kind != "summary" &&
-      kind != "labels" && kind != "mass") {
-    return is_kept_by_job(path.string());
-  }
-  // A level of a batch has its call in the folder above.
-  std::error_code ignored;
-  const fs::path folder = fs::absolute(path, ignored).parent_path();
-  return !kept_call(folder.string()).empty() || !kept_call(folder.parent_path().string()).empty();
-}
-
 /// Whether a file is a table that tells of the other files of a command's folder. Its user's own
 /// tables of points, spheres and reports begin with other columns.
 bool is_table_of_folder(const std::string& path) {
@@ -71,7 +56,7 @@ void check_output_paths(const std::vector<NamedFile>& inputs,
     }
     std::error_code ignored;
     if (fs::is_regular_file(output.path, ignored)) {
-      const bool is_kept = is_kept_by_batch(output.path);
+      const bool is_kept = is_kept_by_job(output.path);
       if (is_kept || is_table_of_folder(output.path)) {
         refuse("\"" + output.path + "\", given for " + output.meaning + ", is a " +
                (is_kept ? "file of a batch, which needs it" : "table of another command") +

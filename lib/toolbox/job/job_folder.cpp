@@ -107,8 +107,14 @@ bool is_kept_by_job(const std::string& file) {
   std::string call = kept_call(folder.string());
   // A level has its call in the folder above.
   if (call.empty()) call = kept_call(folder.parent_path().string());
+  if (call.empty()) return false;
+  const std::string stem = fs::path(file).stem().string();
+  const std::string kind = stem.substr(0, stem.find('-'));
+  for (const char* own : {"grains", "shape", "call", "summary", "labels", "mass"}) {
+    if (!is_beside && kind == own) return true;
+  }
   const std::string ending = is_beside ? "" : ending_in_call(call);
-  if (call.empty() || (ending.empty() && !is_beside)) return false;
+  if (ending.empty() && !is_beside) return false;
   const JobFolder folders[] = {{folder, ending, {}, false}, {folder, ending, {}, true}};
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path& table = entry.path();

@@ -55,8 +55,9 @@ void require_no_job(const std::string& folder);
 /// Returns the options that a job, or a part of one, keeps in this folder; empty: none.
 std::string kept_call(const std::string& folder);
 
-/// Whether a job that keeps its call would take the file for that of a grain in its table: a mesh,
-/// a clump, parts, or a table or grid of nodes.
+/// Whether a job that keeps its call needs the file to continue, or other commands read it: a
+/// table, a page, the call, or the file of a grain in its table (a mesh, a clump, parts, nodes, a
+/// grid).
 bool is_kept_by_job(const std::string& file);
 
 /// Throws Error(InvalidInput) if one of the files `made` is a table of results of another command
