@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {
@@ -23,18 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder of the test's own, with "report.txt" holding "before".
-class OutputFile : public ::testing::Test {
+class OutputFile : public test::FileFolder {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    FileFolder::SetUp();
     write_file(path("report.txt"), "before");
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   static std::string read(const std::string& name) {
     std::ifstream stream(name, std::ios::binary);
@@ -51,9 +46,6 @@ class OutputFile : public ::testing::Test {
     }
     EXPECT_EQ(entries, 1U);
   }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(OutputFile, ReplacesAndLeavesNothingBeside) {

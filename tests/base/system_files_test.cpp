@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/file_folder.h"
 #include "wscvt/base/output_file.h"
 
 namespace wscvt::system_files {
@@ -15,20 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder of the test's own.
-class SystemFiles : public ::testing::Test {
+class SystemFiles : public test::FileFolder {
  protected:
   void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ / "sub");
+    FileFolder::SetUp();
+    fs::create_directory(path("sub"));
   }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  fs::path folder_;
 };
 
 TEST_F(SystemFiles, ATakenNameIsNotMadeAgain) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/base/worker_threads.h"
 
-#include <grp.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -13,6 +12,8 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "support/own_user.h"
 
 namespace wscvt {
 namespace {
@@ -93,9 +94,8 @@ TEST(WorkerThreads, AnExceptionEndsTheLoopAndLeavesTheThreads) {
 /// In a process of its own: 0 where loops are right with as many threads as the system gives.
 int with_few_threads(rlim_t most) {
   const rlimit both = {most, most};
-  constexpr unsigned user = 54321;  // who has no other process; root has no limit
-  const bool is_root = getuid() == 0;
-  if (is_root && (setgroups(0, nullptr) != 0 || setgid(user) != 0 || setuid(user) != 0)) return 2;
+  const bool is_root = getuid() == 0;  // who has no limit
+  if (!test::become_own_user()) return 2;
   if (setrlimit(RLIMIT_NPROC, &both) != 0) return 3;
   WorkerThreads workers(13);
   if (workers.size() > most - 1) return 4;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <grp.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "program_run.h"
+#include "support/own_user.h"
 
 namespace wscvt::test {
 
@@ -47,11 +47,7 @@ class LimitedRun : public ProgramRun {
     if (chdir(folder_.c_str()) != 0) _exit(99);
     if (std::freopen(output.c_str(), "w", stdout) == nullptr) _exit(97);
     if (std::freopen(errors.c_str(), "w", stderr) == nullptr) _exit(97);
-    constexpr unsigned user = 54321;
-    if (nobody && getuid() == 0 &&
-        (setgroups(0, nullptr) != 0 || setgid(user) != 0 || setuid(user) != 0)) {
-      _exit(96);
-    }
+    if (nobody && !become_own_user()) _exit(96);
     for (const Limit& limit : limits) {
       const rlimit both = {limit.value, limit.value};
       if (setrlimit(limit.resource, &both) != 0) _exit(95);
