@@ -3,7 +3,7 @@
 // with a bump, whose radius in the direction (x, y, z) is 1 + 0.3 exp(-8 (1 - z)).
 #include <wscvt/mesh_files/mesh_io.h>
 #include <wscvt/remesh.h>
-#include <wscvt/surface/sphere_surface.h>
+#include <wscvt/surface/radial_surface.h>
 
 #include <cmath>
 #include <cstddef>

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
@@ -16,7 +17,8 @@
 #include "wscvt/repair/scan_advice.h"
 #include "wscvt/surface/grain_surface.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/quadric_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 
@@ -159,9 +161,18 @@ RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
 RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,
                     const Execution& execution) {
   check_grain_surface(surface);
-  return holds_map(surface)
-             ? remesh(read_harmonic_map(surface.coefficients_file), options, execution)
-             : remesh(*make_surface(surface), options, execution);
+  const Vector3& axes = surface.semi_axes;
+  switch (surface.kind) {
+    case SurfaceKind::Ellipsoid:
+      break;
+    case SurfaceKind::Superellipsoid:
+      return remesh(Superellipsoid(axes, surface.polar_exponent, surface.azimuthal_exponent),
+                    options, execution);
+    case SurfaceKind::Harmonics:
+      return std::visit([&](const auto& shape) { return remesh(shape, options, execution); },
+                        read_coefficients(surface.coefficients_file, surface.coefficient_degree));
+  }
+  return remesh(Ellipsoid(axes), options, execution);
 }
 
 }  // namespace wscvt

@@ -63,7 +63,7 @@ RemeshResult remesh(const HarmonicMap& map, const RemeshOptions& options,
                     const Execution& execution = Execution());
 
 /// Remeshes the surface that `surface` describes, by one of the two functions above. Reads its
-/// file. Throws as these functions and make_surface do.
+/// file. Throws as these functions and read_coefficients do.
 RemeshResult remesh(const GrainSurface& surface, const RemeshOptions& options,
                     const Execution& execution = Execution());
 

@@ -88,7 +88,8 @@ TEST(ServerCreates, TheGrainWhoseCoefficientsTheRemesherSaved) {
       {{"NodeCount", "200"}, {"HarmonicDegree", "20"}, {"CoefficientsFile", "grain.json"}},
       {"scan.ply"}, folder);
   SCOPED_TRACE(saving.output.toStdString());
-  const HarmonicSurface surface = read_harmonics(folder.filePath("grain.json").toStdString());
+  const auto surface =
+      std::get<HarmonicSurface>(read_harmonics(folder.filePath("grain.json").toStdString()));
   EXPECT_EQ(surface.degree(), 20);
 
   const QString output = folder.filePath("grain.ply");

@@ -87,20 +87,6 @@ TEST(MappedSurface, LocatesOnAnyTriangulation) {
   }
 }
 
-TEST(MappedSurface, NormalsAreThoseOfTheFaces) {
-  const IndexedMesh mesh = test::box(1, 2, 3);
-  const MappedSurface surface = mapped(mesh);
-  for (const Vector3& u : random_directions(100, test::announced(5))) {
-    const MeshPlace place = surface.locate(u);
-    const Vector3 x = surface.position(place);
-    const Vector3 n = surface.normal(place);
-    // On the face of the box that the point lies on.
-    EXPECT_NEAR((n.array() * x.array()).sum(),
-                (n.array().abs() * Eigen::Array3d(0.5, 1.0, 1.5)).sum(), 1e-12);
-    EXPECT_NEAR(n.norm(), 1.0, 1e-14);
-  }
-}
-
 TEST(MappedSurface, RefusesWhatDoesNotCoverTheSphere) {
   const auto refusal = [](const IndexedMesh& mesh, const std::vector<Vector3>& directions) {
     return test::refusal(ErrorCode::InvalidInput,
@@ -122,41 +108,6 @@ TEST(MappedSurface, RefusesWhatDoesNotCoverTheSphere) {
   EXPECT_NE(refusal(open, ball.points).find("border"), std::string::npos);
   const IndexedMesh twice = test::joined(ball, ball);
   EXPECT_NE(refusal(twice, twice.points).find("2 times"), std::string::npos);
-}
-
-TEST(MappedSurface, DerivativesAreThoseWithinAFace) {
-  // So few faces that hardly a step leaves one; where it does nothing can be said.
-  const IndexedMesh mesh = test::box(1, 2, 3);
-  const MappedSurface surface(mesh, map_to_sphere(mesh, Execution(1)), Execution(1));
-  const double step = 1e-5;
-  int compared = 0;
-  for (const Vector3& u : random_directions(200, test::announced(10))) {
-    SurfaceJet jet;
-    surface.evaluate_jets(&u, 1, Derivatives::Second, &jet);
-    if (surface.locate(u).weights.minCoeff() < 1e-3) continue;
-    ++compared;
-    for (int a = 0; a < 3; ++a) {
-      const std::vector<Vector3> around{(u + step * Vector3::Unit(a)).normalized(),
-                                        (u - step * Vector3::Unit(a)).normalized()};
-      const auto jets = surface.surface_jets(around, Derivatives::First, Execution(1));
-      const Vector3 slope = (jets[0].position - jets[1].position) / (2.0 * step);
-      EXPECT_LT((jet.jacobian.col(a) - slope).norm(), 1e-7 * (1.0 + slope.norm()));
-      const double length = std::sqrt(1.0 + step * step);
-      for (int k = 0; k < 3; ++k) {
-        const Vector3 bend =
-            (jets[0].jacobian.row(k) - jets[1].jacobian.row(k)).transpose() / (2.0 * step * length);
-        // The length differs by u's own part of the step, to first order.
-        const Vector3 scaled = bend - u[a] * jet.jacobian.row(k).transpose();
-        EXPECT_LT((jet.hessians[static_cast<std::size_t>(k)].col(a) - scaled).norm(),
-                  1e-5 * (1.0 + scaled.norm()));
-      }
-    }
-    // Flat.
-    const PrincipalCurvatures curvatures = principal_curvatures(jet, u);
-    EXPECT_NEAR(curvatures.maximum, 0.0, 1e-9);
-    EXPECT_NEAR(curvatures.minimum, 0.0, 1e-9);
-  }
-  EXPECT_GT(compared, 100);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@
 #include "wscvt/sphere/sphere_triangulation.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 namespace {

@@ -15,7 +15,7 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 namespace {

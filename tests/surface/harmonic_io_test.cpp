@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -15,7 +16,6 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 namespace {
@@ -34,7 +34,11 @@ class HarmonicIo : public testing::Test {
   std::string refusal(const std::string& text, bool json) const {
     write(text);
     try {
-      json ? read_harmonics(path_) : read_complex_harmonics(path_);
+      if (json) {
+        read_harmonics(path_);
+      } else {
+        read_complex_harmonics(path_);
+      }
     } catch (const Error& error) {
       std::string what = error.what();
       if (error.code() == ErrorCode::InvalidInput && what.find(path_) != std::string::npos) {
@@ -158,7 +162,7 @@ TEST_F(HarmonicIo, JsonGivesTheSameBitsBack) {
     coefficients.push_back(0.05 * u.x());
   const HarmonicSurface surface(coefficients);
   write_harmonics(path_, surface);
-  EXPECT_EQ(read_harmonics(path_).coefficients(), coefficients);
+  EXPECT_EQ(std::get<HarmonicSurface>(read_harmonics(path_)).coefficients(), coefficients);
 }
 
 TEST_F(HarmonicIo, MalformedJsonIsRefused) {
@@ -193,20 +197,28 @@ TEST_F(HarmonicIo, MapsComeBackWithTheSameBits) {
   coefficients[1][harmonic_index(1, -1)] = -1.0;
   coefficients[2][harmonic_index(1, 0)] = 1.0;
   write_harmonic_map(path_, HarmonicMap(coefficients));
-  EXPECT_EQ(read_harmonic_kind(path_), HarmonicKind::Map);
-  EXPECT_EQ(read_harmonic_map(path_).coefficients(), coefficients);
-  // Neither kind is taken for the other.
-  EXPECT_THROW(read_harmonics(path_), Error);
+  EXPECT_EQ(std::get<HarmonicMap>(read_harmonics(path_)).coefficients(), coefficients);
+}
+
+TEST_F(HarmonicIo, AFileIsReadByItsEnding) {
+  const std::string dat = path_ + ".DAT";
+  std::ofstream(dat) << "0 0 10 0\n1 0 0.5 0\n1 1 0 0\n1 -1 0 0\n";
+  EXPECT_EQ(std::get<HarmonicSurface>(read_coefficients(dat)).degree(), 1);
+  EXPECT_EQ(std::get<HarmonicSurface>(read_coefficients(dat, 0)).degree(), 0);
+  std::remove(dat.c_str());
+  const std::string sh = path_ + ".sh";
+  write_shtools(sh, HarmonicSurface({3.5, 0.0, 0.5, 0.0}));
+  EXPECT_EQ(std::get<HarmonicSurface>(read_coefficients(sh)).degree(), 1);
+  std::remove(sh.c_str());
   write_harmonics(path_, HarmonicSurface({3.5}));
-  EXPECT_EQ(read_harmonic_kind(path_), HarmonicKind::Radial);
-  EXPECT_THROW(read_harmonic_map(path_), Error);
+  EXPECT_EQ(std::get<HarmonicSurface>(read_coefficients(path_)).degree(), 0);
 }
 
 TEST_F(HarmonicIo, MalformedMapsAreRefused) {
   const auto refused = [&](const std::string& text, const std::string& reason) {
     std::ofstream(path_) << text;
     try {
-      read_harmonic_map(path_);
+      read_harmonics(path_);
     } catch (const Error& error) {
       return error.code() == ErrorCode::InvalidInput &&
              std::string(error.what()).find(reason) != std::string::npos;
@@ -225,7 +237,7 @@ TEST_F(HarmonicIo, MalformedMapsAreRefused) {
       {"x": [0, 0, 0, 1], "y": [0, -1, 0, 0], "z": [0, 0, 1, 0]}})",
                       "inside out"));
   std::ofstream(path_) << R"({"format": "wscvt-harmonics-1", "kind": "other", "degree": 0})";
-  EXPECT_THROW(read_harmonic_kind(path_), Error);
+  EXPECT_THROW(read_harmonics(path_), Error);
 }
 
 TEST_F(HarmonicIo, FilesThatCannotBeOpened) {
@@ -240,8 +252,6 @@ TEST_F(HarmonicIo, FilesThatCannotBeOpened) {
   };
   EXPECT_TRUE(is_io_error([&] { read_harmonics(nowhere); }));
   EXPECT_TRUE(is_io_error([&] { read_complex_harmonics(nowhere); }));
-  EXPECT_TRUE(is_io_error([&] { read_harmonic_map(nowhere); }));
-  EXPECT_TRUE(is_io_error([&] { read_harmonic_kind(nowhere); }));
   EXPECT_TRUE(is_io_error([&] { write_harmonics(nowhere, HarmonicSurface({1.0})); }));
 }
 

@@ -41,5 +41,19 @@ TEST(HarmonicSurface, JetsAgreeWithRadii) {
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(radii[i], jets[i].radius);
 }
 
+TEST(HarmonicMap, PositionsOfAnAffineImageOfTheSphere) {
+  const Vector3 axes(2.0, 1.5, 1.0);
+  const Vector3 shift(0.3, -0.2, 0.1);
+  const HarmonicMap ellipsoid = test::affine_map(axes, shift);
+  const std::vector<Vector3> u = random_directions(3000, test::announced(14));
+  const std::vector<Vector3> points = ellipsoid.positions(u, Execution(2));
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    // A few dozen operations on numbers of size 1.
+    EXPECT_LT((points[i] - shift - axes.cwiseProduct(u[i])).norm(), 1e-13);
+  }
+  EXPECT_EQ(points, ellipsoid.positions(u, Execution(1)));
+  EXPECT_EQ(points[17], ellipsoid.positions({u[17]}, Execution(1)).front());
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/radial_surface.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +13,6 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/quadric_surface.h"
-#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 namespace {
@@ -95,6 +96,18 @@ TEST(RadialSurface, IntegralsOfAShiftedSphere) {
   EXPECT_NEAR((integrals.centroid - center).norm(), 0.0, 1e-13);
   EXPECT_GT(integrals.gradient_square, 0.0);
   EXPECT_ERROR(integrate(surface, 0, Execution(1)), InvalidInput);
+}
+
+TEST(RadialSurface, AreaElementsAndAreaOfAShiftedSphere) {
+  const ShiftedSphere surface(1.5, Vector3(0.2, -0.3, 0.4));
+  const std::vector<Vector3> u = random_directions(50, test::announced(31));
+  const AreaElements read = area_elements(surface, u, Execution(2));
+  const std::vector<RadialJet> jets = surface.jets(u, Derivatives::First, Execution(1));
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    EXPECT_EQ(read.radii[i], jets[i].radius);
+    EXPECT_EQ(read.elements[i], area_element(jets[i]));
+  }
+  EXPECT_NEAR(surface_area(surface, 60, Execution(2)), 4.0 * pi * 1.5 * 1.5, 1e-12);
 }
 
 TEST(RadialSurface, IntegralsHaveTheSameBitsOnAnyNumberOfThreads) {

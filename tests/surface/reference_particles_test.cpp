@@ -14,7 +14,7 @@
 
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "program/terminal/work.h"
 #include "toolbox/sample/grain_table.h"
@@ -22,7 +23,6 @@
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/quadric_surface.h"
-#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt::program {
 
@@ -56,10 +56,11 @@ bool holds_meshes(const std::string& folder) {
 SampleGrain read_shape(const std::string& file, const SampleGrids& grids,
                        const Execution& execution) {
   if (is_coefficient_file(file)) {
-    const std::unique_ptr<const SphereSurface> surface = read_coefficients(file);
-    const auto* radial = dynamic_cast<const HarmonicSurface*>(surface.get());
+    const HarmonicShape shape = read_coefficients(file);
+    const auto* radial = std::get_if<HarmonicSurface>(&shape);
     if (radial != nullptr) return sample_grain(*radial, grids, execution);
-    return sample_grain(mesh_of_surface(*surface, map_frequency, execution), grids, execution);
+    const auto& map = std::get<HarmonicMap>(shape);
+    return sample_grain(mesh_of_surface(map, map_frequency, execution), grids, execution);
   }
   MeshFile read = read_mesh_file(file, execution);
   const CheckedMesh checked = check_mesh(std::move(read.mesh), MeshCheckOptions(), execution);
@@ -67,16 +68,6 @@ SampleGrain read_shape(const std::string& file, const SampleGrids& grids,
 }
 
 }  // namespace
-
-std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path) {
-  const auto radial = [](HarmonicSurface surface) {
-    return std::make_unique<const HarmonicSurface>(std::move(surface));
-  };
-  if (ending_of(path) == ".dat") return radial(read_complex_harmonics(path));
-  if (ending_of(path) == ".sh") return radial(read_shtools(path));
-  if (read_harmonic_kind(path) == HarmonicKind::Radial) return radial(read_harmonics(path));
-  return std::make_unique<const HarmonicMap>(read_harmonic_map(path));
-}
 
 bool is_coefficient_file(const std::string& path) {
   const std::string ending = ending_of(path);
@@ -296,7 +287,9 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
 
 IndexedMesh grain_mesh(const std::string& file, const Execution& execution) {
   if (is_coefficient_file(file)) {
-    return mesh_of_surface(*read_coefficients(file), frequency, execution);
+    return std::visit(
+        [&](const auto& shape) { return mesh_of_surface(shape, frequency, execution); },
+        read_coefficients(file));
   }
   MeshFile read = read_mesh_file(file, execution);
   return check_mesh(std::move(read.mesh), MeshCheckOptions(), execution).mesh;

@@ -23,10 +23,6 @@ std::vector<std::string> shape_files(const std::vector<std::string>& inputs);
 /// Returns whether the file contains SH coefficients, by its ending.
 bool is_coefficient_file(const std::string& path);
 
-/// Reads a file of SH coefficients as a HarmonicSurface, or as a HarmonicMap for a harmonic map.
-/// Throws wscvt::Error.
-std::unique_ptr<const SphereSurface> read_coefficients(const std::string& path);
-
 /// Calls `read` for the number of each file, on several threads at once, with a progress line on a
 /// terminal unless quiet. Reports files that `read` refuses on the standard error, and returns
 /// their number. Throws wscvt::Error, also Cancelled, for errors that do not concern one file.

@@ -140,45 +140,15 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
   }
 }
 
-void MappedSurface::evaluate_jets(const Vector3* directions, std::size_t count,
-                                  Derivatives derivatives, SurfaceJet* jets) const {
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector3& u = directions[i];
-    SurfaceJet& jet = jets[i];
-    jet = SurfaceJet();
-    // Uses no hint, because the value must not depend on the other directions.
-    const MeshPlace place = locate(u);
-    jet.position = position(place);
-    if (derivatives == Derivatives::None) continue;
-    // x = M u / (n . u), with M = sum of X_i n_i^T, n_i = a_j x a_k and n the sum of the n_i.
-    const Triangle& t = mesh_.triangles[place.triangle];
-    Matrix3 numerator = Matrix3::Zero();
-    Vector3 sum = Vector3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3& a = directions_[t[(k + 1) % 3]];
-      // The cross product uses differences, for precision of small triangles.
-      const Vector3 n = a.cross(directions_[t[(k + 2) % 3]] - a);
-      // Relative to x, the products with points are as small as the face, and M u = x n . u.
-      numerator += (mesh_.points[t[k]] - jet.position) * n.transpose();
-      sum += n;
-    }
-    const double scale = sum.dot(u);
-    if (!(scale > 0.0)) continue;  // too thin for doubles
-    jet.jacobian = numerator / scale;
-    // Makes it exactly tangential despite rounding.
-    jet.jacobian -= jet.jacobian * u * u.transpose();
-    if (derivatives == Derivatives::First) continue;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      const Matrix3 product = jet.jacobian.row(k).transpose() * sum.transpose() / scale;
-      jet.hessians[static_cast<std::size_t>(k)] = -(product + product.transpose());
-    }
-  }
-}
-
-Vector3 MappedSurface::normal(const MeshPlace& place) const {
-  const Triangle& t = mesh_.triangles[place.triangle];
-  const Vector3& a = mesh_.points[t[0]];
-  return doubled_area_normal(a, mesh_.points[t[1]], mesh_.points[t[2]]).stableNormalized();
+std::vector<Vector3> MappedSurface::positions(const std::vector<Vector3>& directions,
+                                              const Execution& execution) const {
+  constexpr std::size_t block = 1024;
+  std::vector<Vector3> result(directions.size());
+  execution.parallel_for(directions.size(), block, [&](std::size_t begin, std::size_t end) {
+    // Uses no hint, because a position must not depend on the other directions.
+    for (std::size_t i = begin; i < end; ++i) result[i] = position(directions[i]);
+  });
+  return result;
 }
 
 }  // namespace wscvt

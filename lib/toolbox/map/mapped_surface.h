@@ -9,16 +9,14 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/sphere/cube_map.h"
 #include "wscvt/surface/mesh_place.h"
-#include "wscvt/surface/sphere_surface.h"
 
 namespace wscvt {
 
 /// A scan with a one-to-one spherical parametrization (sphere_map.h): every direction u has one
 /// place on the mesh, x(u). Let a face have corners at the directions a, b, c. Its weights are
 /// alpha, beta, gamma of u = alpha a + beta b + gamma c, scaled to sum 1, so arcs of great circles
-/// within a face map to straight lines. The derivatives jump between faces. The curvature is zero
-/// within a face; all curvature is in the edges.
-class MappedSurface : public SphereSurface {
+/// within a face map to straight lines.
+class MappedSurface {
  public:
   /// Stores the mesh and the directions of its vertices. Throws Error(InvalidInput) unless each
   /// vertex has a unit vector, the mesh is closed, and all triangles are counter-clockwise on the
@@ -29,9 +27,6 @@ class MappedSurface : public SphereSurface {
   const std::vector<Vector3>& directions() const { return directions_; }
   /// The opposite half-edge of each half-edge, numbered as in half_edges.h.
   const std::vector<std::int32_t>& opposite() const { return opposite_; }
-
-  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
-                     SurfaceJet* jets) const override;
 
   /// Returns the place in a direction (of any length except zero), by a walk over the sphere's
   /// triangles from the triangle `hint`, or from a table if `hint` is -1. Exact predicates
@@ -45,13 +40,13 @@ class MappedSurface : public SphereSurface {
     return position(locate(direction, hint));
   }
 
+  std::vector<Vector3> positions(const std::vector<Vector3>& directions,
+                                 const Execution& execution) const;
+
   /// Returns the direction of a place: the inverse of locate.
   Vector3 direction(const MeshPlace& place) const {
     return combination(directions_, place).normalized();
   }
-
-  /// Returns the outward unit normal of the face; zero for a face without area.
-  Vector3 normal(const MeshPlace& place) const;
 
  private:
   Vector3 combination(const std::vector<Vector3>& values, const MeshPlace& place) const {

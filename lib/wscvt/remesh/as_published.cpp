@@ -107,7 +107,7 @@ Nodes PublishedRemesher::place(int node_count, const Execution& execution) const
   AreaElements read = area_elements(*surface_, directions, execution);
   nodes.cell_areas = std::move(relaxed.cell_areas);
   for (std::size_t i = 0; i < directions.size(); ++i) nodes.cell_areas[i] *= read.elements[i];
-  std::vector<double> radii = std::move(read.distances);
+  std::vector<double> radii = std::move(read.radii);
   if (options_.placement == PublishedPlacement::Surface && rays_) {
     radii = rays_->radii(directions, execution);
   }

@@ -10,7 +10,7 @@
 #include "wscvt/remesh/remesh_options.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/surface/mesh_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 

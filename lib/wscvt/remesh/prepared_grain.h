@@ -11,7 +11,7 @@
 #include "wscvt/remesh/remesh_result.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/repair/scan_options.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 

@@ -7,7 +7,6 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 

@@ -141,11 +141,10 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
   return result;
 }
 
-std::vector<double> largest_curvatures(const SphereSurface& surface,
+std::vector<double> largest_curvatures(const RadialSurface& surface,
                                        const std::vector<Vector3>& directions,
                                        const Execution& execution) {
-  const std::vector<SurfaceJet> jets =
-      surface.surface_jets(directions, Derivatives::Second, execution);
+  const std::vector<RadialJet> jets = surface.jets(directions, Derivatives::Second, execution);
   std::vector<double> result;
   result.reserve(jets.size());
   for (std::size_t i = 0; i < jets.size(); ++i) {

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 
@@ -20,7 +20,7 @@ std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh,
                                                         const Execution& execution);
 
 /// Returns the largest absolute principal curvature of a surface in each direction, 1 / length.
-std::vector<double> largest_curvatures(const SphereSurface& surface,
+std::vector<double> largest_curvatures(const RadialSurface& surface,
                                        const std::vector<Vector3>& directions,
                                        const Execution& execution);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "wscvt/base/option.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 
@@ -44,13 +43,6 @@ inline constexpr NumberOption<int> coefficient_degree_option = {
 /// Throws Error(InvalidInput) if a number is out of range, or if Harmonics has no file or a file
 /// with another extension.
 void check_grain_surface(const GrainSurface& surface);
-
-/// Whether the coefficients belong to a harmonic map. Reads their file. Throws as read_harmonics.
-bool holds_map(const GrainSurface& surface);
-
-/// Returns the surface. It must not be a harmonic map. Reads the file of coefficients. Throws
-/// Error: InputOutput, InvalidInput.
-std::unique_ptr<const RadialSurface> make_surface(const GrainSurface& surface);
 
 /// Returns the name of the surface for labels: Ellipsoid, Superellipsoid or the coefficients' file
 /// name without folder and extension.

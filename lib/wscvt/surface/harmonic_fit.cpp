@@ -73,7 +73,7 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
     grid.weights.insert(grid.weights.end(), circle.size(), grid.latitudes.weights[row] * pi / rows);
   }
   AreaElements read = area_elements(surface, directions, execution);
-  grid.radii = std::move(read.distances);
+  grid.radii = std::move(read.radii);
   grid.areas = std::move(read.elements);
   for (std::size_t i = 0; i < nodes; ++i) grid.areas[i] *= grid.weights[i];
   for (const double radius : grid.radii) {
@@ -203,7 +203,7 @@ AreaSamples sample_by_area(const RadialSurface& surface, const RadialGrid& grid,
   samples.weights.reserve(directions.size());
   for (std::size_t k = 0; k < directions.size(); ++k) {
     const std::size_t node = nodes[k];
-    samples.points.push_back(read.distances[k] * directions[k]);
+    samples.points.push_back(read.radii[k] * directions[k]);
     samples.weights.push_back(read.elements[k] * grid.weights[node] / grid.areas[node]);
   }
   return samples;

@@ -3,7 +3,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/surface_options.h"
 
 namespace wscvt {

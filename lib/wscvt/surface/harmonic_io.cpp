@@ -15,10 +15,11 @@
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/harmonic_transform.h"
-#include "wscvt/surface/shtools_io.h"
 
 namespace wscvt {
 
@@ -147,13 +148,14 @@ auto read_json(const std::string& path, const Read& read) {
   }
 }
 
-HarmonicKind kind_of(const std::string& path, const nlohmann::json& json) {
+/// Whether the file has series of x, y and z, not one of the radius.
+bool is_map(const std::string& path, const nlohmann::json& json) {
   const std::string kind = json.value("kind", std::string(radial_kind));
   if (kind != radial_kind && kind != map_kind) {
     refuse_file(path, "its \"kind\" is \"" + kind + "\". It must be \"" + radial_kind + "\" or \"" +
                           map_kind + "\".");
   }
-  return kind == map_kind ? HarmonicKind::Map : HarmonicKind::Radial;
+  return kind == map_kind;
 }
 
 std::vector<double> coefficients_of(const std::string& path, const nlohmann::json& degree_json,
@@ -263,18 +265,30 @@ void write_shtools(const std::string& path, const HarmonicSurface& surface) {
   write_file(path, text);
 }
 
-HarmonicKind read_harmonic_kind(const std::string& path) {
-  return read_json(path, [&](const nlohmann::json& json) { return kind_of(path, json); });
+HarmonicShape read_harmonics(const std::string& path) {
+  return read_json(path, [&](const nlohmann::json& json) -> HarmonicShape {
+    const nlohmann::json& degree = json.at("degree");
+    const nlohmann::json& all = json.at("coefficients");
+    if (!is_map(path, json)) return make_surface(path, coefficients_of(path, degree, all));
+    std::array<std::vector<double>, 3> coefficients;
+    for (std::size_t k = 0; k < 3; ++k) {
+      coefficients[k] = coefficients_of(path, degree, all.at(coordinate_names[k]));
+    }
+    HarmonicMap map(std::move(coefficients));
+    constexpr int frequency = 64;
+    const Execution one(1);
+    if (!(volume_of(mesh_of_surface(map, frequency, one), one) > 0.0)) {
+      refuse_file(path, "the surface of its series encloses no volume, or is turned inside out.");
+    }
+    return map;
+  });
 }
 
-HarmonicSurface read_harmonics(const std::string& path) {
-  return read_json(path, [&](const nlohmann::json& json) {
-    if (kind_of(path, json) != HarmonicKind::Radial) {
-      refuse_file(path,
-                  "it has series of x, y and z, not one of the radius. Read it as a harmonic map.");
-    }
-    return make_surface(path, coefficients_of(path, json.at("degree"), json.at("coefficients")));
-  });
+HarmonicShape read_coefficients(const std::string& path, int degree) {
+  const std::string ending = ending_of(path);
+  if (ending == ".dat") return read_complex_harmonics(path, degree);
+  if (ending == ".sh") return read_shtools(path, degree);
+  return read_harmonics(path);
 }
 
 void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
@@ -284,25 +298,6 @@ void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
   json["degree"] = surface.degree();
   json["coefficients"] = surface.coefficients();
   write_file(path, json.dump(1) + "\n");
-}
-
-HarmonicMap read_harmonic_map(const std::string& path) {
-  return read_json(path, [&](const nlohmann::json& json) {
-    if (kind_of(path, json) != HarmonicKind::Map) {
-      refuse_file(path, "it has one series, of the radius. Read it as a radial surface.");
-    }
-    const nlohmann::json& all = json.at("coefficients");
-    std::array<std::vector<double>, 3> coefficients;
-    for (std::size_t k = 0; k < 3; ++k) {
-      coefficients[k] = coefficients_of(path, json.at("degree"), all.at(coordinate_names[k]));
-    }
-    HarmonicMap map(std::move(coefficients));
-    // Twice as many rows as the cube of the series needs.
-    if (!(body_integrals(map, 3 * map.degree() + 4, Execution(1)).volume > 0.0)) {
-      refuse_file(path, "the surface of its series encloses no volume, or is turned inside out.");
-    }
-    return map;
-  });
 }
 
 void write_harmonic_map(const std::string& path, const HarmonicMap& map) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/surface/harmonic_surface.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 
@@ -54,20 +54,26 @@ HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
   }
 }
 
-void HarmonicMap::evaluate_jets(const Vector3* directions, std::size_t count,
-                                Derivatives derivatives, SurfaceJet* jets) const {
-  std::fill(jets, jets + count, SurfaceJet());
-  std::vector<RadialJet> coordinate(count);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    series_[k].sum(directions, count, derivatives, coordinate.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      jets[i].position[row] = coordinate[i].radius;
-      if (derivatives == Derivatives::None) continue;
-      jets[i].jacobian.row(row) = coordinate[i].gradient.transpose();
-      if (derivatives == Derivatives::Second) jets[i].hessians[k] = coordinate[i].hessian;
+std::vector<Vector3> HarmonicMap::positions(const std::vector<Vector3>& directions,
+                                            const Execution& execution) const {
+  constexpr std::size_t block = 1024;
+  std::vector<Vector3> result(directions.size());
+  execution.parallel_for(directions.size(), block, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> coordinate(end - begin);
+    for (std::size_t k = 0; k < 3; ++k) {
+      series_[k].sum(directions.data() + begin, coordinate.size(), coordinate.data());
+      for (std::size_t i = begin; i < end; ++i) {
+        result[i][static_cast<Eigen::Index>(k)] = coordinate[i - begin];
+      }
     }
-  }
+  });
+  return result;
+}
+
+IndexedMesh mesh_of_surface(const HarmonicMap& map, int frequency, const Execution& execution) {
+  IndexedMesh mesh = subdivided_sphere(frequency);
+  mesh.points = map.positions(mesh.points, execution);
+  return mesh;
 }
 
 }  // namespace wscvt

@@ -4,11 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 #include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
@@ -98,9 +99,8 @@ class HarmonicSurface : public RadialSurface {
 
 /// A closed surface of genus 0 given by a series of real orthonormal spherical harmonics for each
 /// coordinate, x(u) = sum of a_lm Y_lm(u) (Brechbuehler, Gerig and Kuebler 1995, "Parametrization
-/// of closed surfaces for 3-D shape description"). Grains with overhangs also have such series,
-/// with smooth curvatures.
-class HarmonicMap : public SphereSurface {
+/// of closed surfaces for 3-D shape description"). Grains with overhangs also have such series.
+class HarmonicMap {
  public:
   /// `coefficients` of x, y and z: (degree + 1)^2 values each in length units, a_lm at index
   /// l^2 + l + m. Throws Error(InvalidInput) if there are no values, their numbers differ or are no
@@ -110,13 +110,18 @@ class HarmonicMap : public SphereSurface {
   int degree() const { return series_[0].degree(); }
   const std::array<std::vector<double>, 3>& coefficients() const { return coefficients_; }
 
-  void evaluate_jets(const Vector3* directions, std::size_t count, Derivatives derivatives,
-                     SurfaceJet* jets) const override;
+  /// Returns the points x(u) in `directions`, unit vectors.
+  std::vector<Vector3> positions(const std::vector<Vector3>& directions,
+                                 const Execution& execution) const;
 
  private:
   std::array<std::vector<double>, 3> coefficients_;
   std::array<HarmonicSeries, 3> series_;
 };
+
+/// Returns the surface as a mesh, with points in the directions of subdivided_sphere(frequency).
+/// Throws as subdivided_sphere.
+IndexedMesh mesh_of_surface(const HarmonicMap& map, int frequency, const Execution& execution);
 
 /// Returns the series of the radius of a closed scan about the origin, in its units (see
 /// fit_harmonics); without coefficients if rays from the origin do not see all of the scan (see
@@ -127,8 +132,16 @@ SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
 
 // Files of such surfaces. All functions below throw Error(InputOutput) if the file cannot be
 // opened, read or written. They throw Error(InvalidInput), naming the file and the line, if the
-// file contains no such surface: wrong syntax, a coefficient missing or given twice, or a radius
-// that is not real and positive everywhere.
+// file contains no such surface: wrong syntax, a coefficient missing or given twice, a radius that
+// is not real and positive everywhere, or a map that encloses no volume or is inside out. Files
+// are written completely or not at all, see write_file.
+
+/// A star-shaped surface or a map.
+using HarmonicShape = std::variant<HarmonicSurface, HarmonicMap>;
+
+/// Reads a file by its ending: .dat by read_complex_harmonics, .sh by read_shtools, else
+/// read_harmonics, for which `degree` has no meaning.
+HarmonicShape read_coefficients(const std::string& path, int degree = -1);
 
 /// Reads the text form of the NIST particle shape sets (VCCTL, THAMES): lines `n m Re Im`, the
 /// coefficients of complex orthonormal harmonics with the Condon-Shortley phase, in any order.
@@ -137,28 +150,26 @@ SeriesCoefficients radial_coefficients(const IndexedMesh& scan, int degree,
 /// beside the sets do; -1 keeps all.
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree = -1);
 
-/// Content of a file of `write_harmonics` or `write_harmonic_map`.
-enum class HarmonicKind {
-  Radial,  ///< one series, of the radius
-  Map,     ///< three, of x, y and z over the map to the sphere
-};
+/// Reads a file of SHTOOLS or pyshtools: rows `l, m, C, S` for m >= 0, with commas or blanks. The
+/// radius is the sum of (C cos(m phi) + S sin(m phi)) P_lm(cos theta). The harmonics are SHTOOLS'
+/// default: real, normalized so that their mean square over the sphere is 1 ("4pi"), without the
+/// Condon-Shortley phase (csphase 1). The file does not contain its normalization. Convert others
+/// first by pyshtools: coeffs.convert(normalization="4pi", csphase=1). Our a_l,m = (-1)^m sqrt(4
+/// pi) C, a_l,-m = (-1)^m sqrt(4 pi) S (M. Wieczorek, M. Meschede, 2018, "SHTools: tools for
+/// working with spherical harmonics"). `degree` as above.
+HarmonicSurface read_shtools(const std::string& path, int degree = -1);
 
-/// Returns the kind of a file; Radial if it has no "kind".
-HarmonicKind read_harmonic_kind(const std::string& path);
+/// Writes such a file, with all digits of each number.
+void write_shtools(const std::string& path, const HarmonicSurface& surface);
 
-/// Reads a file of `write_harmonics`. A file without "kind" is read as a radial series.
-HarmonicSurface read_harmonics(const std::string& path);
+/// Reads a file of the functions below. A file without "kind" is a radial series.
+HarmonicShape read_harmonics(const std::string& path);
 
 /// Writes {"format": "wscvt-harmonics-1", "kind": "radial", "degree": L, "coefficients": [...]}:
 /// real orthonormal harmonics as above, a_lm at index l^2 + l + m. Reading returns the same bits.
-/// Writes the file completely or not at all, see write_file.
 void write_harmonics(const std::string& path, const HarmonicSurface& surface);
 
-/// Reads a file of `write_harmonic_map`. Refuses series that enclose no volume or are inside out.
-HarmonicMap read_harmonic_map(const std::string& path);
-
-/// Writes as `write_harmonics`, with "kind": "map" and "coefficients": {"x": [...], "y": [...],
-/// "z": [...]}.
+/// Writes the same with "kind": "map" and "coefficients": {"x": [...], "y": [...], "z": [...]}.
 void write_harmonic_map(const std::string& path, const HarmonicMap& map);
 
 }  // namespace wscvt

@@ -5,7 +5,7 @@
 
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/sphere/cube_map.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "wscvt/base/option.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt {
 

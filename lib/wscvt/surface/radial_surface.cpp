@@ -1,41 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "wscvt/surface/radial_surface.h"
+
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
 
 namespace {
 
 constexpr std::size_t radius_block = 1024;
-
-/// Returns the point r u and its derivatives, up to the order `derivatives`.
-SurfaceJet surface_jet(const RadialJet& jet, const Vector3& direction, Derivatives derivatives) {
-  SurfaceJet result;
-  const Vector3& u = direction;
-  result.position = jet.radius * u;
-  if (derivatives == Derivatives::None) return result;
-  // x = r(p) q(p) with q = p/|p|, whose Jacobian at |p| = 1 is the projection on the tangent plane.
-  const Matrix3 projection = Matrix3::Identity() - u * u.transpose();
-  result.jacobian = u * jet.gradient.transpose() + jet.radius * projection;
-  if (derivatives == Derivatives::First) return result;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Vector3 gradient = projection.col(i);  // of q_i
-    // Hessian of q_i: -(e_i u^T + u e_i^T) - u_i I + 3 u_i u u^T, written with the gradient.
-    const Matrix3 mixed = gradient * u.transpose();
-    const Matrix3 hessian = -(mixed + mixed.transpose()) - u[i] * projection;
-    const Matrix3 product = gradient * jet.gradient.transpose();
-    result.hessians[static_cast<std::size_t>(i)] =
-        jet.radius * hessian + product + product.transpose() + u[i] * jet.hessian;
-  }
-  return result;
-}
 
 }  // namespace
 
@@ -58,47 +37,17 @@ std::vector<RadialJet> RadialSurface::jets(const std::vector<Vector3>& direction
 
 std::vector<double> RadialSurface::radii(const std::vector<Vector3>& directions,
                                          const Execution& execution) const {
-  return distances(directions, execution);
+  std::vector<double> result(directions.size());
+  execution.parallel_for(directions.size(), radius_block, [&](std::size_t begin, std::size_t end) {
+    evaluate_radii(directions.data() + begin, end - begin, result.data() + begin);
+  });
+  return result;
 }
 
 double RadialSurface::radius(const Vector3& direction) const {
   double result = 0.0;
   evaluate_radii(&direction, 1, &result);
   return result;
-}
-
-void RadialSurface::evaluate_jets(const Vector3* directions, std::size_t count,
-                                  Derivatives derivatives, SurfaceJet* jets) const {
-  std::vector<RadialJet> radial(count);
-  evaluate(directions, count, derivatives, radial.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    jets[i] = surface_jet(radial[i], directions[i], derivatives);
-  }
-}
-
-void RadialSurface::evaluate_positions(const Vector3* directions, std::size_t count,
-                                       Vector3* positions) const {
-  std::vector<double> radii(count);
-  evaluate_radii(directions, count, radii.data());
-  for (std::size_t i = 0; i < count; ++i) positions[i] = radii[i] * directions[i];
-}
-
-void RadialSurface::evaluate_shapes(const Vector3* directions, std::size_t count,
-                                    Derivatives derivatives, LocalShape* shapes) const {
-  if (derivatives == Derivatives::None) {
-    std::vector<double> radii(count);
-    evaluate_radii(directions, count, radii.data());
-    for (std::size_t i = 0; i < count; ++i) shapes[i] = {radii[i], 0.0, {}};
-    return;
-  }
-  std::vector<RadialJet> jets(count);
-  evaluate(directions, count, derivatives, jets.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    shapes[i] = {jets[i].radius, area_element(jets[i]), {}};
-    if (derivatives == Derivatives::Second) {
-      shapes[i].curvatures = principal_curvatures(jets[i], directions[i]);
-    }
-  }
 }
 
 Vector3 surface_normal(const RadialJet& jet, const Vector3& direction) {
@@ -131,6 +80,43 @@ RadialJet jet_from_extension(double radius, const Vector3& gradient, const Matri
   jet.hessian = projection * hessian * projection - gradient.dot(direction) * projection -
                 jet.gradient * direction.transpose() - direction * jet.gradient.transpose();
   return jet;
+}
+
+AreaElements area_elements(const RadialSurface& surface, const std::vector<Vector3>& directions,
+                           const Execution& execution) {
+  AreaElements result;
+  result.radii.resize(directions.size());
+  result.elements.resize(directions.size());
+  execution.parallel_for(directions.size(), radius_block, [&](std::size_t begin, std::size_t end) {
+    std::vector<RadialJet> jets(end - begin);
+    surface.evaluate(directions.data() + begin, jets.size(), Derivatives::First, jets.data());
+    for (std::size_t i = begin; i < end; ++i) {
+      result.radii[i] = jets[i - begin].radius;
+      result.elements[i] = area_element(jets[i - begin]);
+    }
+  });
+  return result;
+}
+
+double surface_area(const RadialSurface& surface, int polar_nodes, const Execution& execution) {
+  const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
+  const std::vector<double> elements =
+      area_elements(surface, quadrature.directions, execution).elements;
+  return execution.parallel_sum(elements.size(), radius_block, 0.0,
+                                [&](std::size_t begin, std::size_t end) {
+                                  double part = 0.0;
+                                  for (std::size_t i = begin; i < end; ++i)
+                                    part += quadrature.weights[i] * elements[i];
+                                  return part;
+                                });
+}
+
+IndexedMesh mesh_of_surface(const RadialSurface& surface, int frequency,
+                            const Execution& execution) {
+  IndexedMesh mesh = subdivided_sphere(frequency);
+  const std::vector<double> radii = surface.radii(mesh.points, execution);
+  for (std::size_t i = 0; i < radii.size(); ++i) mesh.points[i] = radii[i] * mesh.points[i];
+  return mesh;
 }
 
 SurfaceIntegrals integrate(const RadialSurface& surface, int polar_nodes,

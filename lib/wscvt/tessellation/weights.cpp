@@ -34,7 +34,7 @@ WeightingRule radial_distance_weighting(const TabulatedSurface& table,
                                         const WeightingOptions& /*options*/,
                                         const Execution& /*execution*/) {
   WeightingRule rule;
-  rule.field = table.distances();
+  rule.field = table.radii();
   rule.stencil = 6;
   rule.weight = [area = table.area()](double radius, double count, const FieldDeviation&) {
     return area / (count * pi * radius * radius);
@@ -71,12 +71,11 @@ GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare squa
   const std::size_t columns = moment.columns();
   const std::vector<Vector3> nodes = SphereGrid::directions(rows);
   execution.parallel_for(nodes.size(), curvature_block, [&](std::size_t begin, std::size_t end) {
-    std::vector<LocalShape> shapes(end - begin);
-    table.surface().evaluate_shapes(nodes.data() + begin, shapes.size(), Derivatives::Second,
-                                    shapes.data());
+    std::vector<RadialJet> jets(end - begin);
+    table.surface().evaluate(nodes.data() + begin, jets.size(), Derivatives::Second, jets.data());
     for (std::size_t i = begin; i < end; ++i) {
       const double share = moment.sines[i / columns];
-      moment.values[i] = share * square(shapes[i - begin].curvatures);
+      moment.values[i] = share * square(principal_curvatures(jets[i - begin], nodes[i]));
       measure.values[i] = share;
     }
   });
@@ -139,23 +138,23 @@ WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptio
   return functions[static_cast<std::size_t>(options.kind)](table, options, execution);
 }
 
-TabulatedSurface::TabulatedSurface(const SphereSurface& surface, int node_count,
+TabulatedSurface::TabulatedSurface(const RadialSurface& surface, int node_count,
                                    const Execution& execution)
     : surface_(surface), node_count_(node_count), execution_(execution) {}
 
 int TabulatedSurface::rows() const { return rows_for(node_count_); }
 
-const std::vector<double>& TabulatedSurface::distances() const {
-  if (distances_.empty()) {
-    distances_ = surface_.distances(SphereGrid::directions(rows()), execution_);
+const std::vector<double>& TabulatedSurface::radii() const {
+  if (radii_.empty()) {
+    radii_ = surface_.radii(SphereGrid::directions(rows()), execution_);
   }
-  return distances_;
+  return radii_;
 }
 
 const GridField& TabulatedSurface::area_elements() const {
   if (!area_elements_) {
     AreaElements read = wscvt::area_elements(surface_, SphereGrid::directions(rows()), execution_);
-    distances_ = std::move(read.distances);
+    radii_ = std::move(read.radii);
     area_elements_.emplace(rows()).values = std::move(read.elements);
   }
   return *area_elements_;

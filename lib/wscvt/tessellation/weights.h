@@ -10,7 +10,7 @@
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_grid.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 #include "wscvt/tessellation/cap_sums.h"
 #include "wscvt/tessellation/tessellation_options.h"
 
@@ -35,19 +35,17 @@ class SeedModel {
 };
 
 /// Surface quantities for the weightings, at the nodes of an equal-angle grid. Each is computed on
-/// first use, because derivatives cost three times as much as distances. Not thread-safe.
+/// first use, because derivatives cost three times as much as radii. Not thread-safe.
 class TabulatedSurface {
  public:
   /// For `node_count` seeds. The surface must outlive the table.
-  TabulatedSurface(const SphereSurface& surface, int node_count, const Execution& execution);
+  TabulatedSurface(const RadialSurface& surface, int node_count, const Execution& execution);
 
-  const SphereSurface& surface() const { return surface_; }
+  const RadialSurface& surface() const { return surface_; }
   int node_count() const { return node_count_; }
-  int rows() const;  ///< of the grid
-  /// Returns distances from the origin to the surface at the grid's nodes; the radii of a radial
-  /// surface.
-  const std::vector<double>& distances() const;
-  const GridField& area_elements() const;  ///< dA/dOmega at the grid's nodes
+  int rows() const;                          ///< of the grid
+  const std::vector<double>& radii() const;  ///< at the grid's nodes
+  const GridField& area_elements() const;    ///< dA/dOmega at the grid's nodes
   /// Returns S, the surface's area: from the area elements if they were computed, else by
   /// quadrature; both within 1e-3.
   double area() const;
@@ -55,10 +53,10 @@ class TabulatedSurface {
   double radius() const { return std::sqrt(area() / (4.0 * pi)); }
 
  private:
-  const SphereSurface& surface_;
+  const RadialSurface& surface_;
   int node_count_;
   Execution execution_;
-  mutable std::vector<double> distances_;
+  mutable std::vector<double> radii_;
   mutable std::optional<GridField> area_elements_;
 };
 

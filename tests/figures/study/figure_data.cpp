@@ -8,7 +8,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 

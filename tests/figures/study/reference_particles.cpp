@@ -11,7 +11,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 

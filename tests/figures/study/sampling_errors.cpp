@@ -12,7 +12,7 @@
 #include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/sphere_surface.h"
+#include "wscvt/surface/radial_surface.h"
 
 namespace wscvt::study {
 
