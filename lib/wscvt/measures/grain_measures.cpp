@@ -10,7 +10,7 @@
 #include "wscvt/repair/coordinates.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/scan_advice.h"
-#include "wscvt/surface/crossing_pairs.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 

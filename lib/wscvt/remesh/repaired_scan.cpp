@@ -7,8 +7,8 @@
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/new_surface.h"
 #include "wscvt/repair/overhangs.h"
-#include "wscvt/surface/crossing_pairs.h"
 #include "wscvt/surface/harmonic_fit.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 
