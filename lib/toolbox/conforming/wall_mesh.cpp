@@ -167,7 +167,7 @@ double WallMesh::agreement(const Triangle& corners, const Vector3& normal) const
 
 bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::array<Vector3, 3>& x,
                           double turn, double least) const {
-  constexpr double least_agreement = 0.3;
+  constexpr double enough = 0.3;
   const Triangle& now = triangles[t].corners;
   const Vector3 before = normal_of(t);
   const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
@@ -175,7 +175,7 @@ bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::arr
   if (shape < least && shape < evenness_of(t)) return false;
   const double cosine = agreement(corners, after);
   if (cosine > 1.5) return after.dot(before) > turn * after.norm() * before.norm();
-  return cosine > least_agreement || cosine > agreement(now, before);
+  return cosine > enough || cosine > agreement(now, before);
 }
 
 Vector3 WallMesh::normal_of(std::size_t t) const {
