@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "support/test_shapes.h"
-#include "wscvt/surface/intersection_repair.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
