@@ -16,7 +16,7 @@
 #include "wscvt/nodes/equalization.h"
 #include "wscvt/nodes/fit_state.h"
 #include "wscvt/nodes/fit_steps.h"
-#include "wscvt/surface/curvature_density.h"
+#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/long_edges.h"
 #include "wscvt/surface/self_intersections.h"
 #include "wscvt/surface/triangle_hash.h"
