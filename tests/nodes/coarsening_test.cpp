@@ -11,7 +11,7 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
-#include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/edit_mesh.h"
 
 namespace wscvt {
 namespace {

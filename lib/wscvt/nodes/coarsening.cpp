@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/star_shape.h"
 
 namespace wscvt {

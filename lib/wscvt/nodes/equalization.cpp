@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "wscvt/base/numbers.h"
-#include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/star_shape.h"
 #include "wscvt/surface/triangle_place.h"
 

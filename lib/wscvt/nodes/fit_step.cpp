@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "wscvt/nodes/fit_steps.h"
-#include "wscvt/surface/delaunay_flips.h"
+#include "wscvt/surface/edit_mesh.h"
 #include "wscvt/surface/star_shape.h"
 
 namespace wscvt {

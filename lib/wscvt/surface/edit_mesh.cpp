@@ -135,4 +135,109 @@ double mean_edge_ratio(const EditMesh& mesh) {
   return sum / static_cast<double>(mesh.triangles.size());
 }
 
+namespace {
+
+/// Edges below this cosine of their normals are sharp: 73 degrees.
+constexpr double sharp_bend = 0.3;
+/// A flip from or to a sharp edge must lower the sum of turns by this much. At a rim, Delaunay's
+/// rule would cut a long edge of the rim by an edge from sheet to sheet, which leaves a notch, or
+/// keep one. A quarter or 2.5 times as much changes 2 %.
+constexpr double least_fall = 0.2;
+/// Such a flip makes no angle below 15 degrees.
+constexpr double sharpest_rim_corner = 0.966;
+
+/// The edge ab of the triangles abc and bad, which would become cd, with unit normals.
+struct Flip {
+  std::int32_t h, g;
+  Vector3 abc, bad;
+  Vector3 cad, dbc;
+};
+
+/// Returns how much less the faces turn after a flip, over its edge and the four about it.
+double fall_of_turns(const EditMesh& mesh, const Flip& f) {
+  const auto beyond = [&](std::int32_t h) {
+    const Vector3 n = mesh.normal(face_of(mesh.opposite[h]));
+    return Vector3(n / (n.norm() + 1e-300));
+  };
+  const Vector3 bc = beyond(next_half_edge(f.h));
+  const Vector3 ca = beyond(previous_half_edge(f.h));
+  const Vector3 ad = beyond(next_half_edge(f.g));
+  const Vector3 db = beyond(previous_half_edge(f.g));
+  return f.cad.dot(f.dbc) + f.cad.dot(ca + ad) + f.dbc.dot(db + bc) - f.abc.dot(f.bad) -
+         f.abc.dot(bc + ca) - f.bad.dot(ad + db);
+}
+
+bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t h) {
+  const std::int32_t g = mesh.opposite[h];
+  const std::int32_t a = mesh.origin(h);
+  const std::int32_t b = mesh.origin(g);
+  const std::int32_t c = mesh.apex(h);
+  const std::int32_t d = mesh.apex(g);
+  const Vector3& pc = mesh.points[c];
+  const Vector3& pd = mesh.points[d];
+  const Vector3 ca = mesh.points[a] - pc;
+  const Vector3 cb = mesh.points[b] - pc;
+  const Vector3 da = mesh.points[a] - pd;
+  const Vector3 db = mesh.points[b] - pd;
+  Vector3 m1 = ca.cross(cb);
+  Vector3 m2 = db.cross(da);
+  Vector3 n1 = ca.cross(pd - pc);
+  Vector3 n2 = (pd - pc).cross(cb);
+  const double at_c = ca.dot(cb);
+  const double at_d = da.dot(db);
+  // Most edges are flat and opposite to acute angles, which is seen without roots.
+  const double bend = m1.dot(m2);
+  if (at_c >= 0.0 && at_d >= 0.0 && bend > 0.0 && n1.dot(n2) > 0.0 &&
+      bend * bend > sharp_bend * sharp_bend * m1.squaredNorm() * m2.squaredNorm()) {
+    return false;
+  }
+  const double s1 = m1.norm();
+  const double s2 = m2.norm();
+  // The sine of the sum of the angles at c and d, times the edges' lengths.
+  const double sine = at_c * s2 + at_d * s1;
+  const bool is_delaunay = sine > -1e-6 * (s1 * s2 + 1e-300);
+  if (mesh.degrees[a] <= 3 || mesh.degrees[b] <= 3 || c == d) return false;
+  if (is_delaunay && n1.dot(n2) > 0.0 && bend > sharp_bend * s1 * s2) return false;
+  const double a1 = n1.norm();
+  const double a2 = n2.norm();
+  if (a1 < 1e-300 || a2 < 1e-300) return false;
+  m1 /= s1 + 1e-300;
+  m2 /= s2 + 1e-300;
+  n1 /= a1;
+  n2 /= a2;
+  if (std::min(m1.dot(m2), n1.dot(n2)) < sharp_bend) {
+    if (std::max(largest_corner_cosine(pc, mesh.points[a], pd),
+                 largest_corner_cosine(pc, pd, mesh.points[b])) > sharpest_rim_corner ||
+        fall_of_turns(mesh, {h, g, m1, m2, n1, n2}) < least_fall) {
+      return false;
+    }
+  } else {
+    if (is_delaunay) return false;
+    const Vector3 ab = outward[a] + outward[b];
+    const Vector3 cd = outward[c] + outward[d];
+    const double before = std::min(cosine_to(m1, ab + outward[c]), cosine_to(m2, ab + outward[d]));
+    const double after = std::min(cosine_to(n1, cd + outward[a]), cosine_to(n2, cd + outward[b]));
+    if (after < std::min(before, least_agreement)) return false;
+  }
+  if (mesh.joined(c, d)) return false;
+  mesh.flip(h);
+  return true;
+}
+
+}  // namespace
+
+int flip_to_delaunay(EditMesh& mesh, const std::vector<Vector3>& outward) {
+  int flipped = 0;
+  const auto faces = static_cast<std::int32_t>(mesh.triangles.size());
+  for (std::int32_t t = 0; t < faces; ++t) {
+    for (std::int32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      if (static_cast<std::int32_t>(face_of(mesh.opposite[h])) < t) continue;
+      if (!try_flip(mesh, outward, h)) continue;
+      ++flipped;
+      break;  // the next pass does the triangle's other edges
+    }
+  }
+  return flipped;
+}
+
 }  // namespace wscvt
