@@ -20,7 +20,6 @@
 #include "wscvt/surface/long_edges.h"
 #include "wscvt/surface/self_intersections.h"
 #include "wscvt/surface/triangle_hash.h"
-#include "wscvt/surface/volume_offset.h"
 
 namespace wscvt {
 
