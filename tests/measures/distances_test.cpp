@@ -11,7 +11,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
-#include "wscvt/surface/mesh_place.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 namespace {

@@ -6,7 +6,6 @@
 #include "toolbox/clump/point_blocks.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 

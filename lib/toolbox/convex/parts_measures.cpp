@@ -15,7 +15,6 @@
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_warnings.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 

@@ -7,8 +7,8 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/cube_map.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -103,5 +104,20 @@ double single_precision_step(const IndexedMesh& mesh);
 /// whose own volume is not positive unchanged.
 double offset_to_volume(std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                         double volume);
+
+/// A place on a triangle mesh: a triangle and barycentric weights >= 0 of its corners, sum 1.
+struct MeshPlace {
+  std::int32_t triangle = -1;
+  Vector3 weights = Vector3::Zero();
+};
+
+/// Returns the point of a mesh at a place.
+inline Vector3 point_at(const IndexedMesh& mesh, const MeshPlace& place) {
+  // Starts from a corner, so that only small differences are multiplied if the mesh is far from the
+  // origin.
+  const auto& [a, b, c] = mesh.triangles[place.triangle];
+  const Vector3& p = mesh.points[a];
+  return p + place.weights[1] * (mesh.points[b] - p) + place.weights[2] * (mesh.points[c] - p);
+}
 
 }  // namespace wscvt

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/mesh_distance.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 

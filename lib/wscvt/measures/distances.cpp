@@ -13,7 +13,6 @@
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 

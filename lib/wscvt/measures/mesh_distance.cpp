@@ -11,7 +11,6 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/surface/mesh_place.h"
 
 namespace wscvt {
 
