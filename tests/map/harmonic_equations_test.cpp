@@ -10,7 +10,7 @@
 #include "support/seeds.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_sampling.h"
-#include "wscvt/surface/spherical_harmonics.h"
+#include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
 namespace {

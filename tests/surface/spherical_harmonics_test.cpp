@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/spherical_harmonics.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
+#include "wscvt/surface/harmonic_transform.h"
 
 namespace wscvt {
 namespace {

@@ -10,7 +10,6 @@
 #include "wscvt/sphere/sphere_grid.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/harmonic_transform.h"
-#include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
 

@@ -9,7 +9,6 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/sphere/sphere_grid.h"
-#include "wscvt/surface/spherical_harmonics.h"
 
 namespace wscvt {
 

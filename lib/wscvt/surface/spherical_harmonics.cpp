@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/surface/spherical_harmonics.h"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/surface/harmonic_transform.h"
 
 // The hot loops are compiled three times on x86-64: for every processor, with AVX2 and with
 // AVX-512. All give the same bits, because they have the same operations in the same order and
