@@ -86,9 +86,9 @@ CreationSettings read_creation_settings(const ParameterValues& values) {
   surface.coefficient_degree = checked.whole("CoefficientDegree");
   if (surface.kind == SurfaceKind::Harmonics) {
     if (surface.coefficients_file.empty()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Parameter CoefficientsFile is empty. Give the .dat, .sh or .json file with the "
-                  "coefficients of the harmonics. Nothing was changed.");
+      refuse(
+          "Parameter CoefficientsFile is empty. Give the .dat, .sh or .json file with the "
+          "coefficients of the harmonics. Nothing was changed.");
     }
     check_extension(surface.coefficients_file, {".dat", ".sh", ".json"}, "CoefficientsFile");
   }

@@ -122,9 +122,9 @@ class RunOnDocument {
  public:
   explicit RunOnDocument(Layers& layers) : layers_(layers) {
     if (!layers_.note(key).empty()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "A filter of this plugin is still running. Wait until it is done, then apply "
-                  "again. Nothing was changed.");
+      refuse(
+          "A filter of this plugin is still running. Wait until it is done, then apply again. "
+          "Nothing was changed.");
     }
     layers_.set_note(key, "running");
   }

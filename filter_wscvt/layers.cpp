@@ -42,9 +42,7 @@ std::optional<Layer> layer_with_number(const Layers& layers, int number) {
 
 Layer current_layer(const Layers& layers) {
   const std::optional<Layer> current = layers.current();
-  if (!current) {
-    throw Error(ErrorCode::InvalidInput, "There is no mesh. Open a scan first.");
-  }
+  if (!current) refuse("There is no mesh. Open a scan first.");
   return *current;
 }
 
@@ -90,10 +88,9 @@ Layer layer_named(const Layers& layers, const std::string& name, const std::stri
     const auto found = std::find_if(all.begin(), all.end(), fits);
     if (found == all.end()) continue;
     if (std::find_if(found + 1, all.end(), fits) != all.end()) {
-      throw Error(ErrorCode::InvalidInput, "Two layers are called '" + name +
-                                               "'. Give the number of a layer. It is before the "
-                                               "name in the list of layers. Nothing was "
-                                               "changed.");
+      refuse("Two layers are called '" + name +
+             "'. Give the number of a layer. It is before the name in the list of layers. Nothing "
+             "was changed.");
     }
     return *found;
   }
@@ -102,8 +99,8 @@ Layer layer_named(const Layers& layers, const std::string& name, const std::stri
     if (!labels.empty()) labels += ", ";
     labels += "'" + layer.label + "'";
   }
-  throw Error(ErrorCode::InvalidInput, "Parameter " + parameter + ": there is no layer called '" +
-                                           name + "'. The layers are " + labels + ".");
+  refuse("Parameter " + parameter + ": there is no layer called '" + name + "'. The layers are " +
+         labels + ".");
 }
 
 std::string without_ending(const std::string& label) {

@@ -26,8 +26,7 @@ template <class VcgMesh>
 IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
   constexpr std::int32_t deleted = -1;
   if (mesh.vert.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh has more than 2147483647 vertices. Simplify it first.");
+    refuse("The mesh has more than 2147483647 vertices. Simplify it first.");
   }
   IndexedMesh result;
   result.points.reserve(static_cast<std::size_t>(mesh.vn));
@@ -47,10 +46,8 @@ IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
       const auto v = vertex == nullptr ? -1 : vertex - mesh.vert.data();
       if (v < 0 || static_cast<std::size_t>(v) >= new_index.size() ||
           new_index[static_cast<std::size_t>(v)] == deleted) {
-        throw Error(
-            ErrorCode::InvalidInput,
-            "Face " + std::to_string(f) +
-                " refers to a missing vertex. Remove unreferenced and degenerate elements first.");
+        refuse("Face " + std::to_string(f) +
+               " refers to a missing vertex. Remove unreferenced and degenerate elements first.");
       }
       triangle[static_cast<std::size_t>(k)] = new_index[static_cast<std::size_t>(v)];
     }

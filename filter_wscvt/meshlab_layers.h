@@ -135,9 +135,8 @@ class MeshlabLayers final : public Layers {
     for (Model* model : Api::all(document_)) {
       if (static_cast<int>(model->id()) == number) return *model;
     }
-    throw Error(ErrorCode::InvalidInput,
-                "The layer with number " + std::to_string(number) +
-                    " no longer exists. Choose another layer. Nothing was changed.");
+    refuse("The layer with number " + std::to_string(number) +
+           " no longer exists. Choose another layer. Nothing was changed.");
   }
 
   /// Replaces the content of a layer, but not its transform.

@@ -108,17 +108,15 @@ ParameterValue value_of(const FilterParameter& parameter, const typename Api::Va
         return text->trimmed().toStdString();
       }
   }
-  throw Error(ErrorCode::InvalidInput,
-              "Parameter " + parameter.name + " has the type " + value.typeName().toStdString() +
-                  ", which does not fit. Use the types of the filter's own scripts.");
+  refuse("Parameter " + parameter.name + " has the type " + value.typeName().toStdString() +
+         ", which does not fit. Use the types of the filter's own scripts.");
 }
 
 /// For a parameter that is missing or unreadable in a script.
 [[noreturn]] inline void refuse_without(const std::string& name) {
-  throw Error(ErrorCode::InvalidInput,
-              name +
-                  " is missing from the script, or its value cannot be read. Give a whole number, "
-                  "at the position that it has in the filter's own scripts. Nothing was changed.");
+  refuse(name +
+         " is missing from the script, or its value cannot be read. Give a whole number, at the "
+         "position that it has in the filter's own scripts. Nothing was changed.");
 }
 
 /// Returns the values of the parameters in a list. Throws Error if a required parameter is missing.

@@ -18,10 +18,9 @@ enum class AnyPlacement { Series, Surface, Fitted, Contact, Default };
 
 [[noreturn]] void refuse_value(const std::string& parameter, const std::string& value,
                                Method wanted) {
-  throw Error(ErrorCode::InvalidInput,
-              "Parameter " + parameter + " is " + value + ". Only the method \"" +
-                  capitalised(label_of(wanted)) +
-                  "\" has this value. Choose that method, or another value. Nothing was changed.");
+  refuse("Parameter " + parameter + " is " + value + ". Only the method \"" +
+         capitalised(label_of(wanted)) +
+         "\" has this value. Choose that method, or another value. Nothing was changed.");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ double checked_value(const FilterParameter& parameter, double value) {
     sentence += parameter.kind == ParameterKind::Real ? "a number from " : "a whole number from ";
     sentence += typed_text(parameter.minimum) + " to " + typed_text(parameter.maximum);
   }
-  throw Error(ErrorCode::InvalidInput, sentence + ". Nothing was changed.");
+  refuse(sentence + ". Nothing was changed.");
 }
 
 FilterParameter file(std::string name, ParameterKind kind, std::vector<std::string> extensions,
@@ -58,9 +58,8 @@ ParameterValue default_of(const FilterParameter& parameter) {
 ParameterValue checked(const FilterParameter& parameter, const ParameterValue& value) {
   const bool is_text = std::holds_alternative<std::string>(value);
   if (is_text != holds_text(parameter.kind)) {
-    throw Error(ErrorCode::InvalidInput,
-                "Parameter " + parameter.name + " is " +
-                    (is_text ? "a text. Give a number." : "a number. Give a text."));
+    refuse("Parameter " + parameter.name + " is " +
+           (is_text ? "a text. Give a number." : "a number. Give a text."));
   }
   if (is_text) return value;
   return checked_value(parameter, std::get<double>(value));

@@ -124,9 +124,9 @@ RemeshSettings read_remesh_settings(const ParameterValues& values) {
   if (auto* published = std::get_if<AsPublishedOptions>(&options.method)) {
     published->max_overhang_percent = max_overhang;
   } else if (max_overhang != AsPublishedOptions().max_overhang_percent) {
-    throw Error(ErrorCode::InvalidInput, "Parameter FoldLimit is " + typed_text(max_overhang) +
-                                             ". Only the method \"As published\" has this limit. "
-                                             "Leave it at its default. Nothing was changed.");
+    refuse("Parameter FoldLimit is " + typed_text(max_overhang) +
+           ". Only the method \"As published\" has this limit. Leave it at its default. Nothing "
+           "was changed.");
   }
   options.max_repaired_area_percent = checked.real("MendLimit");
   options.points = checked.flag("Points");

@@ -25,10 +25,9 @@ std::string extension_of(const std::string& path) {
     if (!wanted.empty()) wanted += extension == extensions.back() ? " or " : ", ";
     wanted += extension;
   }
-  throw Error(ErrorCode::InvalidInput,
-              "Parameter " + parameter + " is '" + path +
-                  "', but the extension does not fit. Give a file name that ends in " + wanted +
-                  ". Nothing was changed.");
+  refuse("Parameter " + parameter + " is '" + path +
+         "', but the extension does not fit. Give a file name that ends in " + wanted +
+         ". Nothing was changed.");
 }
 
 }  // namespace
@@ -77,9 +76,8 @@ void check_output_file(const std::string& path, const std::vector<std::string>& 
 void check_different_files(const std::string& path, const std::string& parameter,
                            const std::string& other, const std::string& other_parameter) {
   if (!same_file(path, other)) return;
-  throw Error(ErrorCode::InvalidInput, "Parameters " + parameter + " and " + other_parameter +
-                                           " both name '" + path +
-                                           "'. Give two names. Nothing was changed.");
+  refuse("Parameters " + parameter + " and " + other_parameter + " both name '" + path +
+         "'. Give two names. Nothing was changed.");
 }
 
 }  // namespace wscvt::filter

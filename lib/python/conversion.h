@@ -74,7 +74,7 @@ auto of_array(const Work& work) {
     return work();
   } catch (const Error& error) {
     if (error.code() != ErrorCode::InputOutput) throw;
-    throw Error(ErrorCode::InvalidInput, error.sentence());
+    refuse(error.sentence());
   }
 }
 

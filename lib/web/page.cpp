@@ -55,9 +55,7 @@ RemeshOptions options_of(std::map<std::string, std::string> values) {
   RemeshOptions options;
   Setter setter{values};
   for_each_option(options, setter);
-  if (!values.empty()) {
-    throw Error(ErrorCode::InvalidInput, "The method has no option " + values.begin()->first + ".");
-  }
+  if (!values.empty()) refuse("The method has no option " + values.begin()->first + ".");
   options.measures.repaired_scan = true;
   return options;
 }

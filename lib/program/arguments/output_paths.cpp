@@ -38,19 +38,16 @@ bool is_table_of_folder(const std::string& path) {
 
 void check_output_paths(const std::vector<NamedFile>& inputs,
                         const std::vector<NamedFile>& outputs) {
-  const auto refuse = [](const std::string& sentence) {
-    throw wscvt::Error(wscvt::ErrorCode::InvalidInput, sentence);
-  };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const NamedFile& output = outputs[i];
     if (output.path.empty()) continue;
     for (std::size_t k = 0; k < i; ++k) {
-      if (!wscvt::same_file(output.path, outputs[k].path)) continue;
+      if (!same_file(output.path, outputs[k].path)) continue;
       refuse("\"" + output.path + "\" is given for " + outputs[k].meaning + " and for " +
              output.meaning + ". Give two names.");
     }
     for (const NamedFile& input : inputs) {
-      if (!wscvt::same_file(output.path, input.path)) continue;
+      if (!same_file(output.path, input.path)) continue;
       refuse("\"" + output.path + "\", given for " + output.meaning + ", is " + input.meaning +
              " itself. Give another name.");
     }
@@ -63,7 +60,7 @@ void check_output_paths(const std::vector<NamedFile>& inputs,
                ". Give another name.");
       }
     }
-    wscvt::check_writable(output.path);
+    check_writable(output.path);
   }
 }
 

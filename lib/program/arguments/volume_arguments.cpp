@@ -31,15 +31,13 @@ void read_voxel_size(std::string_view text, VolumeChoice& choice) {
     const std::size_t digits = part.substr(0, end).find_last_not_of(" \t");
     const std::string named(end == std::string_view::npos ? std::string_view() : part.substr(end));
     if (!named.empty() && (!is_known_unit(named) || (!unit.empty() && unit_of(named) != unit))) {
-      throw Error(ErrorCode::InvalidInput,
-                  "The size of a voxel is \"" + whole +
-                      "\". Give one of the units nm, um, mm, cm, m, or no unit.");
+      refuse("The size of a voxel is \"" + whole +
+             "\". Give one of the units nm, um, mm, cm, m, or no unit.");
     }
     if (!named.empty()) unit = unit_of(named);
     if (count == 3 || (is_last && count == 1)) {
-      throw Error(ErrorCode::InvalidInput,
-                  "The size of a voxel is \"" + whole +
-                      "\". Give one number, or three numbers with commas between them.");
+      refuse("The size of a voxel is \"" + whole +
+             "\". Give one number, or three numbers with commas between them.");
     }
     size[count] = from_typed(part.substr(0, digits == std::string_view::npos ? 0 : digits + 1),
                              voxel_size_option);

@@ -129,9 +129,7 @@ IndexedMesh convex_hull(const std::vector<Vector3>& points, const Execution& exe
   IndexedMesh hull;
   hull.triangles = convex_hull_triangles(points, execution);
   if (hull.triangles.empty()) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The points lie in one plane, so their convex hull has no volume. Give a solid body.");
+    refuse("The points lie in one plane, so their convex hull has no volume. Give a solid body.");
   }
   std::vector<std::int32_t> number(points.size(), -1);
   for (const Triangle& t : hull.triangles) {

@@ -58,9 +58,8 @@ class CallerOfLoop {
 
 Execution::Execution(int threads, ProgressCallback progress) : progress_(std::move(progress)) {
   if (threads < 0) {
-    throw Error(ErrorCode::InvalidInput,
-                "The number of threads is " + std::to_string(threads) +
-                    ". Give 0 for all threads of the machine, or 1 or more.");
+    refuse("The number of threads is " + std::to_string(threads) +
+           ". Give 0 for all threads of the machine, or 1 or more.");
   }
   // More threads than the machine has would not be faster.
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

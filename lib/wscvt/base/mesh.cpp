@@ -62,10 +62,9 @@ void add_attributes(const std::vector<MeshAttribute>& attributes, std::size_t co
   if (has_colours) Element::request_colours(mesh);
   for (const MeshAttribute& attribute : attributes) {
     if (attribute.values.size() != count) {
-      throw Error(ErrorCode::InvalidInput, "The attribute \"" + attribute.name + "\" has " +
-                                               std::to_string(attribute.values.size()) +
-                                               " values, not " + std::to_string(count) +
-                                               ". Give one for each vertex or face.");
+      refuse("The attribute \"" + attribute.name + "\" has " +
+             std::to_string(attribute.values.size()) + " values, not " + std::to_string(count) +
+             ". Give one for each vertex or face.");
     }
     const auto* const colour = std::find(colour_names.begin(), colour_names.end(), attribute.name);
     if (has_colours && colour != colour_names.end()) {
@@ -133,17 +132,15 @@ Mesh to_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes) {
     const Triangle& t = mesh.triangles[f];
     for (const std::int32_t v : t) {
       if (v < 0 || static_cast<std::size_t>(v) >= vertices) {
-        throw Error(ErrorCode::InvalidInput, "Triangle " + std::to_string(f) + " names vertex " +
-                                                 std::to_string(v) + ", but the mesh has " +
-                                                 std::to_string(vertices) + " vertices.");
+        refuse("Triangle " + std::to_string(f) + " names vertex " + std::to_string(v) +
+               ", but the mesh has " + std::to_string(vertices) + " vertices.");
       }
     }
     const auto face = result.add_face(Mesh::VertexHandle(t[0]), Mesh::VertexHandle(t[1]),
                                       Mesh::VertexHandle(t[2]));
     if (!face.is_valid()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Triangle " + std::to_string(f) +
-                      " does not fit an oriented 2-manifold. Check and repair the mesh first.");
+      refuse("Triangle " + std::to_string(f) +
+             " does not fit an oriented 2-manifold. Check and repair the mesh first.");
     }
   }
   add_attributes<Vertices>(attributes.of_vertices, vertices, result);

@@ -78,10 +78,8 @@ std::string keys_of() {
 template <class Enumeration>
 void require_valid(Enumeration value) {
   if (is_valid(value)) return;
-  throw Error(ErrorCode::InvalidInput,
-              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": number " +
-                  std::to_string(static_cast<long long>(value)) + ". Give " +
-                  keys_of<Enumeration>() + ".");
+  refuse("Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": number " +
+         std::to_string(static_cast<long long>(value)) + ". Give " + keys_of<Enumeration>() + ".");
 }
 
 /// Returns the row of a value. Throws as require_valid.
@@ -110,9 +108,8 @@ Enumeration from_key(std::string_view key) {
   for (const auto& row : enumerators<Enumeration>()) {
     if (row.key == key) return row.value;
   }
-  throw Error(ErrorCode::InvalidInput,
-              "Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": \"" +
-                  std::string(key) + "\". Give " + keys_of<Enumeration>() + ".");
+  refuse("Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": \"" +
+         std::string(key) + "\". Give " + keys_of<Enumeration>() + ".");
 }
 
 // The name and range of an option that is a number or a flag are in one constant beside its struct.
@@ -221,7 +218,7 @@ std::string refusal(std::string_view value, const NumberOption<Number>& option) 
 template <class Number>
 void require_in_range(Number value, const NumberOption<Number>& option) {
   if (option.contains(value)) return;
-  throw Error(ErrorCode::InvalidInput, refusal(typed_text(value), option));
+  refuse(refusal(typed_text(value), option));
 }
 
 /// Returns the number that a text contains, the inverse of typed_text. The decimal sign is a point
@@ -233,7 +230,7 @@ Number from_typed(std::string_view text, const NumberOption<Number>& option) {
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || !option.contains(value)) {
-    throw Error(ErrorCode::InvalidInput, refusal("\"" + std::string(text) + "\"", option));
+    refuse(refusal("\"" + std::string(text) + "\"", option));
   }
   return value;
 }

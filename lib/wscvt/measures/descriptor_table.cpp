@@ -119,10 +119,9 @@ std::string shared_label(const std::string& one, const std::string& other) {
 std::vector<DescriptorComparison> compare_descriptors(const std::vector<DescriptorValue>& reference,
                                                       const std::vector<DescriptorValue>& values) {
   if (reference.size() != values.size()) {
-    throw Error(ErrorCode::InvalidInput,
-                "The two lists contain " + std::to_string(reference.size()) + " and " +
-                    std::to_string(values.size()) +
-                    " descriptors. Compare lists made by the same function.");
+    refuse("The two lists contain " + std::to_string(reference.size()) + " and " +
+           std::to_string(values.size()) +
+           " descriptors. Compare lists made by the same function.");
   }
   // Sizes for the test of near zero: 1 for numbers without a unit, otherwise the largest value with
   // the unit, such as the longest axis for lengths.
@@ -137,9 +136,8 @@ std::vector<DescriptorComparison> compare_descriptors(const std::vector<Descript
     const DescriptorValue& from = reference[i];
     const DescriptorValue& to = values[i];
     if (from.key != to.key) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Row " + std::to_string(i) + " is " + from.key + " in one list and " + to.key +
-                      " in the other. Compare lists made by the same function.");
+      refuse("Row " + std::to_string(i) + " is " + from.key + " in one list and " + to.key +
+             " in the other. Compare lists made by the same function.");
     }
     const bool near_zero = std::abs(from.value) < near_zero_share * sizes[from.unit];
     const double error = from.on_ratio_scale && !near_zero

@@ -26,9 +26,8 @@ constexpr const char* distance_stage = "Measuring distances";
 
 void check_densities(const IndexedMesh& mesh, const std::vector<double>& densities) {
   if (densities.empty() || densities.size() == mesh.points.size()) return;
-  throw Error(ErrorCode::InvalidInput,
-              "There are " + std::to_string(densities.size()) + " densities for a mesh of " +
-                  std::to_string(mesh.points.size()) + " vertices. Give one per vertex, or none.");
+  refuse("There are " + std::to_string(densities.size()) + " densities for a mesh of " +
+         std::to_string(mesh.points.size()) + " vertices. Give one per vertex, or none.");
 }
 
 std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t count,
@@ -44,9 +43,9 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
     accumulated.push_back(area);
   }
   if (!(area > 0.0)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh has no area, so no points can be spread over it. Give a triangle mesh "
-                "with area.");
+    refuse(
+        "The mesh has no area, so no points can be spread over it. Give a triangle mesh with "
+        "area.");
   }
 
   std::vector<MeshPlace> places;

@@ -207,9 +207,8 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const IndexedMesh& hull_
                                const Execution& execution) {
   const std::vector<Vector3>& hull = hull_mesh.points;
   if (hull.size() < 4 || mesh.triangles.empty()) {
-    throw Error(ErrorCode::InvalidInput,
-                "A body of " + std::to_string(hull.size()) +
-                    " points has no diameters. Give a closed mesh and the points of its hull.");
+    refuse("A body of " + std::to_string(hull.size()) +
+           " points has no diameters. Give a closed mesh and the points of its hull.");
   }
   // Relative to a point of the mesh, against cancellation far from the origin.
   const Eigen::Matrix3d frame = frame_of(hull);

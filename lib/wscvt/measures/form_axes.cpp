@@ -190,14 +190,14 @@ Box settled(NearbyBoxes& about, Box box) {
 
 FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& execution) {
   if (points.size() < 4) {
-    throw Error(ErrorCode::InvalidInput, "A box about " + std::to_string(points.size()) +
-                                             " points has no volume. Give at least four points.");
+    refuse("A box about " + std::to_string(points.size()) +
+           " points has no volume. Give at least four points.");
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
-    throw Error(ErrorCode::InvalidInput, "Point " + std::to_string(i) +
-                                             " has a coordinate that is not a finite number, so "
-                                             "there is no box about it. Remove it.");
+    refuse(
+        "Point " + std::to_string(i) +
+        " has a coordinate that is not a finite number, so there is no box about it. Remove it.");
   }
   check_scan_size(points);
   const std::vector<Vector3> local = in_frame(points, points.front(), frame_of(points));
@@ -253,8 +253,7 @@ OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& e
         return part;
       });
   if (!(sum.trace() > 0.0)) {
-    throw Error(
-        ErrorCode::InvalidInput,
+    refuse(
         "The mesh has no area, so it has no surface orientation. Give a triangle mesh with area.");
   }
   OrientationTensor result;

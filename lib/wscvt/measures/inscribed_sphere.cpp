@@ -246,9 +246,9 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
   constexpr const char* stage = "Fitting the inscribed sphere";
   execution.report(0.0, stage);
   if (!has_area(mesh)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh has no faces with an area, so no sphere fits into it. Give a closed mesh "
-                "that encloses a volume.");
+    refuse(
+        "The mesh has no faces with an area, so no sphere fits into it. Give a closed mesh that "
+        "encloses a volume.");
   }
   const MeshDistance surface(mesh, execution);
   Vector3 lower = mesh.points[mesh.triangles.front()[0]];
@@ -267,9 +267,9 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
   }
   const InscribedSphere sphere = search.result();
   if (!(sphere.radius > 0.0)) {
-    throw Error(ErrorCode::InvalidInput,
-                "No point was found inside the mesh, so no sphere fits into it. Give a closed mesh "
-                "that encloses a volume.");
+    refuse(
+        "No point was found inside the mesh, so no sphere fits into it. Give a closed mesh that "
+        "encloses a volume.");
   }
   return sphere;
 }

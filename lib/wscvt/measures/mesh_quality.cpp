@@ -103,8 +103,7 @@ bool names_edge(const Triangle& t, std::size_t k) { return t[k] < t[(k + 1) % 3]
 
 void require_faces(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
-    throw Error(
-        ErrorCode::InvalidInput,
+    refuse(
         "The mesh has no faces, so its quality cannot be measured. Give a closed triangle mesh.");
   }
 }
@@ -156,9 +155,7 @@ MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution)
 
 QualityHistograms quality_histograms(const IndexedMesh& mesh, std::size_t bins) {
   require_faces(mesh);
-  if (bins == 0) {
-    throw Error(ErrorCode::InvalidInput, "A histogram needs at least one bin, not 0.");
-  }
+  if (bins == 0) refuse("A histogram needs at least one bin, not 0.");
   Moments lengths;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -94,10 +94,9 @@ double least_cutoff(const IndexedMesh& mesh) {
 Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execution& execution) {
   const double least = least_cutoff(mesh);
   if (!(cutoff > 0.0) || cutoff < least) {
-    throw Error(ErrorCode::InvalidInput,
-                "The cut-off length of roughness is " + format_number(cutoff, 4) +
-                    ", but the edges of this mesh are so long that it must be " +
-                    format_number(least, 4) + " or more. Give a larger cut-off or a denser mesh.");
+    refuse("The cut-off length of roughness is " + format_number(cutoff, 4) +
+           ", but the edges of this mesh are so long that it must be " + format_number(least, 4) +
+           " or more. Give a larger cut-off or a denser mesh.");
   }
   SurfaceLowPass filter(mesh.triangles, mesh.points.size());
   filter.set_surface(mesh.points, cutoff, execution);
@@ -126,8 +125,7 @@ Roughness surface_roughness(const IndexedMesh& mesh, double cutoff, const Execut
 
 double printed_sdq(const RadialSurface& surface, int rings, const Execution& execution) {
   if (rings < 1) {
-    throw Error(ErrorCode::InvalidInput,
-                "The number of parallels is " + std::to_string(rings) + ". Give 1 or more.");
+    refuse("The number of parallels is " + std::to_string(rings) + ". Give 1 or more.");
   }
   struct Sums {
     double slope = 0.0;

@@ -122,10 +122,10 @@ Corners corners_of(const std::vector<double>& areas,
 Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, double ball,
                            const Execution& execution) {
   if (!(inscribed_radius > 0.0) || !(ball > 0.0)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The radius of the inscribed sphere or of the balls is not positive, so corners "
-                "cannot be detected. Give the largest inscribed sphere of the same body and balls "
-                "of about a fifth of it.");
+    refuse(
+        "The radius of the inscribed sphere or of the balls is not positive, so corners cannot be "
+        "detected. Give the largest inscribed sphere of the same body and balls of about a fifth "
+        "of it.");
   }
   const double radius = std::max(ball * inscribed_radius, edges_per_ball * mean_edge(mesh));
   Roundness result;

@@ -139,10 +139,9 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   const Vector3 origin = local_origin(mesh, execution);
   const VolumeMoments moments = volume_moments(mesh, origin, execution);
   if (!(moments.volume > 0.0)) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "The mesh encloses no positive volume, so it has no shape descriptors. Give a closed "
-        "mesh whose faces look outward.");
+    refuse(
+        "The mesh encloses no positive volume, so it has no shape descriptors. Give a closed mesh "
+        "whose faces look outward.");
   }
 
   ShapeDescriptors result;

@@ -64,11 +64,10 @@ void check_scan_size(const std::vector<Vector3>& points) {
 void check_scan_size(const Vector3& extents) {
   const double size = extents.maxCoeff();
   if (size == 0.0 || (size >= smallest_scan_size && size <= largest_scan_size)) return;
-  throw Error(ErrorCode::InvalidInput, "The scan is " + format_number(size) +
-                                           " units across, which is too small or too large for the "
-                                           "computation. Scale it to between " +
-                                           format_number(smallest_scan_size) + " and " +
-                                           format_number(largest_scan_size) + " units.");
+  refuse(
+      "The scan is " + format_number(size) +
+      " units across, which is too small or too large for the computation. Scale it to between " +
+      format_number(smallest_scan_size) + " and " + format_number(largest_scan_size) + " units.");
 }
 
 namespace {
@@ -207,9 +206,8 @@ std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
 std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Point " + std::to_string(i) +
-                      " has a coordinate that is not a finite number. Remove it from the scan.");
+      refuse("Point " + std::to_string(i) +
+             " has a coordinate that is not a finite number. Remove it from the scan.");
     }
   }
   const auto less = [](const Vector3& a, const Vector3& b) {
@@ -219,9 +217,8 @@ std::vector<Vector3> different_points(std::vector<Vector3> points, const Executi
   execution.report(0.0, "Sorting the points");  // sorting a million points takes tenths of a second
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 4) {
-    throw Error(ErrorCode::InvalidInput,
-                "The scan has " + std::to_string(points.size()) +
-                    " different points and no faces. A body needs at least 4.");
+    refuse("The scan has " + std::to_string(points.size()) +
+           " different points and no faces. A body needs at least 4.");
   }
   check_scan_size(points);
   return points;

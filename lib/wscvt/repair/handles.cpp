@@ -252,9 +252,7 @@ HalfEdges linked(const IndexedMesh& mesh) {
       std::find(links.opposite.begin(), links.opposite.end(), -1) == links.opposite.end() &&
       std::find(links.first.begin(), links.first.end(), -1) == links.first.end();
   if (!closed) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh is not closed, so its handles cannot be counted. Run check_mesh on it "
-                "first.");
+    refuse("The mesh is not closed, so its handles cannot be counted. Run check_mesh on it first.");
   }
   return links;
 }

@@ -64,11 +64,10 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
 IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution) {
   if (points_only) return mesh_of_points(std::move(scan.points), execution);
   if (!scan.triangles.empty() || scan.points.empty()) return scan;
-  throw Error(ErrorCode::InvalidInput,
-              "The scan has " + std::to_string(scan.points.size()) +
-                  " points and no faces. If it was exported without its faces, export it again. If "
-                  "there are only points, build a surface from them: " +
-                  mention("points", "true") + ".");
+  refuse("The scan has " + std::to_string(scan.points.size()) +
+         " points and no faces. If it was exported without its faces, export it again. If there "
+         "are only points, build a surface from them: " +
+         mention("points", "true") + ".");
 }
 
 void count_given(std::size_t points, std::size_t faces, std::size_t different,
@@ -170,9 +169,9 @@ struct ReportingVisitor : parts::Wrapping_default_visitor {
 };
 
 [[noreturn]] void refuse_nothing() {
-  throw Error(ErrorCode::InvalidInput,
-              "There is nothing to shrink-wrap. Give a mesh whose faces have an area, or "
-              "points with an extent, and an opening above 0.");
+  refuse(
+      "There is nothing to shrink-wrap. Give a mesh whose faces have an area, or points with an "
+      "extent, and an opening above 0.");
 }
 
 /// The steps of CGAL::alpha_wrap_3, with reports between them.
@@ -232,11 +231,10 @@ constexpr double offset_share = 0.1;
 void check_shrink_wrap_options(const ShrinkWrapOptions& options) {
   require_in_range(options.opening_percent, shrink_wrap_option);
   if (options.opening_percent > 0.0 && options.opening_percent < smallest_opening_percent) {
-    throw Error(ErrorCode::InvalidInput, "The " + std::string(shrink_wrap_option.subject) + " is " +
-                                             format_number(options.opening_percent) +
-                                             ". Give 0 or " +
-                                             format_number(smallest_opening_percent) + " to " +
-                                             format_number(shrink_wrap_option.maximum) + ".");
+    refuse("The " + std::string(shrink_wrap_option.subject) + " is " +
+           format_number(options.opening_percent) + ". Give 0 or " +
+           format_number(smallest_opening_percent) + " to " +
+           format_number(shrink_wrap_option.maximum) + ".");
   }
 }
 

@@ -80,15 +80,12 @@ void require_header(const std::string& path, const OpenTable& table,
   if (size == 0) return;
   const std::string header = header_and_row.substr(0, row_of(header_and_row));
   if (table.read(0, header.size()) != header) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "\"" + path + "\" is not a table with this report's columns. Give the name of a new file.");
+    refuse("\"" + path +
+           "\" is not a table with this report's columns. Give the name of a new file.");
   }
   if (table.read(size - line_end_size, line_end_size) != line_end) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "\"" + path +
-            "\" ends within a row. Give the name of a new file, or end its last line with CR LF.");
+    refuse("\"" + path +
+           "\" ends within a row. Give the name of a new file, or end its last line with CR LF.");
   }
 }
 

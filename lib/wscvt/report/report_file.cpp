@@ -39,8 +39,7 @@ ReportFormat report_format(const std::string& path) {
   const auto& endings = report_endings();
   const auto found = std::find(endings.begin(), endings.end(), ending_of(path));
   if (found == endings.end()) {
-    throw Error(ErrorCode::InvalidInput,
-                "Unknown report format: \"" + path + "\". Use .html, .json or .csv.");
+    refuse("Unknown report format: \"" + path + "\". Use .html, .json or .csv.");
   }
   return static_cast<ReportFormat>(found - endings.begin());
 }

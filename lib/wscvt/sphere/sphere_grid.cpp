@@ -146,9 +146,8 @@ void spread_stencils(double* nodes, int rows, std::size_t stride, const Vector3*
 
 SphereGrid::SphereGrid(int rows, int stencil) : rows_(rows), stencil_(stencil), halo_(stencil / 2) {
   if (rows < 8 || (stencil != 4 && stencil != 6)) {
-    throw Error(ErrorCode::InvalidInput,
-                "A grid of the sphere needs 8 rows or more and a stencil of 4 or 6, not " +
-                    std::to_string(rows) + " and " + std::to_string(stencil) + ".");
+    refuse("A grid of the sphere needs 8 rows or more and a stencil of 4 or 6, not " +
+           std::to_string(rows) + " and " + std::to_string(stencil) + ".");
   }
   nodes_.assign(static_cast<std::size_t>(rows_ + 2 * halo_) * stride(), 0.0);
 }
@@ -157,9 +156,8 @@ SphereGrid::SphereGrid(int rows, int stencil, const std::vector<double>& values)
     : SphereGrid(rows, stencil) {
   const std::size_t count = static_cast<std::size_t>(rows_) * columns();
   if (values.size() != count) {
-    throw Error(ErrorCode::InvalidInput, "A grid of the sphere with " + std::to_string(rows_) +
-                                             " rows needs " + std::to_string(count) +
-                                             " values, not " + std::to_string(values.size()) + ".");
+    refuse("A grid of the sphere with " + std::to_string(rows_) + " rows needs " +
+           std::to_string(count) + " values, not " + std::to_string(values.size()) + ".");
   }
   for (int row = 0; row < rows_; ++row) {
     const double* begin = values.data() + static_cast<std::size_t>(row) * columns();
@@ -264,19 +262,15 @@ void SphereGrid::interpolate(const std::vector<const SphereGrid*>& grids, const 
   nodes.reserve(grids.size());
   for (const SphereGrid* grid : grids) {
     if (grid->rows_ != grids[0]->rows_ || grid->stencil_ != grids[0]->stencil_) {
-      throw Error(ErrorCode::InvalidInput,
-                  "Grids of the sphere that are looked up together need equal rows and stencils, "
-                  "not " +
-                      std::to_string(grid->rows_) + " and " + std::to_string(grid->stencil_) +
-                      " beside " + std::to_string(grids[0]->rows_) + " and " +
-                      std::to_string(grids[0]->stencil_) + ".");
+      refuse("Grids of the sphere that are looked up together need equal rows and stencils, not " +
+             std::to_string(grid->rows_) + " and " + std::to_string(grid->stencil_) + " beside " +
+             std::to_string(grids[0]->rows_) + " and " + std::to_string(grids[0]->stencil_) + ".");
     }
     nodes.push_back(grid->nodes_.data());
   }
   if (values.size() != grids.size()) {
-    throw Error(ErrorCode::InvalidInput,
-                "There are " + std::to_string(grids.size()) + " grids of the sphere and " +
-                    std::to_string(values.size()) + " arrays for their values. Give one each.");
+    refuse("There are " + std::to_string(grids.size()) + " grids of the sphere and " +
+           std::to_string(values.size()) + " arrays for their values. Give one each.");
   }
   if (grids.empty()) return;
   const auto function = grids[0]->stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;

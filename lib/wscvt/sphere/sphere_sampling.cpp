@@ -17,9 +17,8 @@ namespace {
 
 void require_at_least(int value, int least, const char* what) {
   if (value < least) {
-    throw Error(ErrorCode::InvalidInput, std::string("The ") + what + " is " +
-                                             std::to_string(value) + ". It must be at least " +
-                                             std::to_string(least) + ".");
+    refuse(std::string("The ") + what + " is " + std::to_string(value) + ". It must be at least " +
+           std::to_string(least) + ".");
   }
 }
 
@@ -159,9 +158,9 @@ std::vector<Vector3> warped_lattice(int count, const DensityFunction& density, i
     for (std::size_t k = 0; k < columns; ++k) {
       const double value = values[j * columns + k];
       if (!(value > 0.0) || !std::isfinite(value)) {
-        throw Error(ErrorCode::InvalidInput,
-                    "The seed density is not a positive number everywhere. Check the surface the "
-                    "weights are computed from.");
+        refuse(
+            "The seed density is not a positive number everywhere. Check the surface the weights "
+            "are computed from.");
       }
       row[k + 1] = row[k] + value;
     }

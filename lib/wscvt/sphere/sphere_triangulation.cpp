@@ -99,20 +99,17 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
                                        const std::vector<double>& weights,
                                        const Execution& execution) {
   if (seeds.size() < 4) {
-    throw Error(ErrorCode::InvalidInput,
-                "A triangulation of the sphere needs at least 4 seeds, not " +
-                    std::to_string(seeds.size()) + ".");
+    refuse("A triangulation of the sphere needs at least 4 seeds, not " +
+           std::to_string(seeds.size()) + ".");
   }
   if (!weights.empty() && weights.size() != seeds.size()) {
-    throw Error(ErrorCode::InvalidInput, "There are " + std::to_string(weights.size()) +
-                                             " weights for " + std::to_string(seeds.size()) +
-                                             " seeds. Give one each, or none.");
+    refuse("There are " + std::to_string(weights.size()) + " weights for " +
+           std::to_string(seeds.size()) + " seeds. Give one each, or none.");
   }
   // The exact arithmetic of the predicates ends the program at NaN.
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     if (seeds[i].allFinite()) continue;
-    throw Error(ErrorCode::InvalidInput,
-                "Seed " + std::to_string(i) + " is not a finite direction. Give unit vectors.");
+    refuse("Seed " + std::to_string(i) + " is not a finite direction. Give unit vectors.");
   }
   if (!can_be_lifted(weights)) {
     return "a weight is not a number, or far larger than the sphere's own solid angle. Use more "
@@ -155,8 +152,8 @@ SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
     usable = false;
   }
   if (!usable) {
-    throw Error(ErrorCode::InvalidInput, "The triangles do not cover the sphere once with all " +
-                                             std::to_string(count) + " seeds as corners.");
+    refuse("The triangles do not cover the sphere once with all " + std::to_string(count) +
+           " seeds as corners.");
   }
 }
 

@@ -291,8 +291,8 @@ std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
     const std::vector<double>& radii, const Execution& execution) {
   for (const double radius : radii) {
     if (radius > 0.0) continue;
-    throw Error(ErrorCode::InvalidInput, "The radius of the balls for curvature is " +
-                                             format_number(radius) + ". Give a positive radius.");
+    refuse("The radius of the balls for curvature is " + format_number(radius) +
+           ". Give a positive radius.");
   }
   std::vector<std::vector<PrincipalCurvatures>> result(
       radii.size(), std::vector<PrincipalCurvatures>(centres.size()));

@@ -125,8 +125,8 @@ PrincipalCurvatures fit_quadric(const std::vector<Vector3>& points,
 std::vector<PrincipalCurvatures> quadric_fit_curvatures(const IndexedMesh& mesh, int rings,
                                                         const Execution& execution) {
   if (rings < 1) {
-    throw Error(ErrorCode::InvalidInput, "The number of rings for the curvature fit is " +
-                                             std::to_string(rings) + ". Give 1 or more, e.g. 2.");
+    refuse("The number of rings for the curvature fit is " + std::to_string(rings) +
+           ". Give 1 or more, e.g. 2.");
   }
   const VertexCorners corners(mesh);
   std::vector<PrincipalCurvatures> result(mesh.points.size());

@@ -18,9 +18,8 @@ void check_grain_surface(const GrainSurface& surface) {
   if (surface.kind != SurfaceKind::Harmonics) return;
   const std::string ending = ending_of(surface.coefficients_file);
   if (ending == ".dat" || ending == ".json" || ending == ".sh") return;
-  throw Error(ErrorCode::InvalidInput,
-              "The coefficients file is \"" + surface.coefficients_file +
-                  "\". Give a file whose name ends in .dat, .sh or .json.");
+  refuse("The coefficients file is \"" + surface.coefficients_file +
+         "\". Give a file whose name ends in .dat, .sh or .json.");
 }
 
 std::string surface_name(const GrainSurface& surface) {

@@ -78,9 +78,9 @@ RadialGrid read_grid(const RadialSurface& surface, int rows, const Execution& ex
   for (std::size_t i = 0; i < nodes; ++i) grid.areas[i] *= grid.weights[i];
   for (const double radius : grid.radii) {
     if (!(radius > 0.0 && std::isfinite(radius))) {
-      throw Error(ErrorCode::InvalidInput,
-                  "A radius of the surface is not a positive number. Give a surface that goes once "
-                  "around its origin.");
+      refuse(
+          "A radius of the surface is not a positive number. Give a surface that goes once around "
+          "its origin.");
     }
   }
   return grid;

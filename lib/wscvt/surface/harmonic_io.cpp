@@ -38,7 +38,7 @@ std::ifstream open_for_reading(const std::string& path) {
 }
 
 [[noreturn]] void refuse_file(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InvalidInput, "The file " + path + " is not usable: " + what);
+  refuse("The file " + path + " is not usable: " + what);
 }
 
 [[noreturn]] void refuse_line(const std::string& path, std::size_t line, const std::string& what) {
@@ -188,9 +188,8 @@ std::vector<double> coefficients_of(const std::string& path, const nlohmann::jso
 
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
   if (degree < -1) {
-    throw Error(ErrorCode::InvalidInput, "The degree to cut the series at is " +
-                                             std::to_string(degree) +
-                                             ". Give 0 or more, or -1 to keep all.");
+    refuse("The degree to cut the series at is " + std::to_string(degree) +
+           ". Give 0 or more, or -1 to keep all.");
   }
   const std::vector<ComplexCoefficient> complex = read_lines(path, false);
   check_convention(complex, path);

@@ -14,9 +14,8 @@ HarmonicSurface::HarmonicSurface(std::vector<double> coefficients)
     : coefficients_(std::move(coefficients)), series_(coefficients_) {
   for (std::size_t k = 0; k < coefficients_.size(); ++k) {
     if (!std::isfinite(coefficients_[k])) {
-      throw Error(ErrorCode::InvalidInput, "Coefficient " + std::to_string(k) +
-                                               " of the spherical-harmonic series is not a finite "
-                                               "number.");
+      refuse("Coefficient " + std::to_string(k) +
+             " of the spherical-harmonic series is not a finite number.");
     }
   }
 }
@@ -38,17 +37,14 @@ HarmonicMap::HarmonicMap(std::array<std::vector<double>, 3> coefficients)
   constexpr std::array<char, 3> names{'x', 'y', 'z'};
   for (std::size_t k = 0; k < 3; ++k) {
     if (coefficients_[k].size() != coefficients_[0].size()) {
-      throw Error(ErrorCode::InvalidInput, "The series for x, y and z have " +
-                                               std::to_string(coefficients_[0].size()) + ", " +
-                                               std::to_string(coefficients_[1].size()) + " and " +
-                                               std::to_string(coefficients_[2].size()) +
-                                               " coefficients. Give them the same degree.");
+      refuse("The series for x, y and z have " + std::to_string(coefficients_[0].size()) + ", " +
+             std::to_string(coefficients_[1].size()) + " and " +
+             std::to_string(coefficients_[2].size()) + " coefficients. Give them the same degree.");
     }
     for (std::size_t i = 0; i < coefficients_[k].size(); ++i) {
       if (!std::isfinite(coefficients_[k][i])) {
-        throw Error(ErrorCode::InvalidInput, "Coefficient " + std::to_string(i) +
-                                                 " of the series for " + names[k] +
-                                                 " is not a finite number.");
+        refuse("Coefficient " + std::to_string(i) + " of the series for " + names[k] +
+               " is not a finite number.");
       }
     }
   }

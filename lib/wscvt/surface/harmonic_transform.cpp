@@ -47,13 +47,12 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
     : degree_(degree), rows_(signed_index(cosines.size())), azimuths_(azimuths) {
   if (degree < 0 || degree > maximum_harmonic_degree || azimuths < 1 ||
       cosines.size() != sines.size()) {
-    throw Error(ErrorCode::InvalidInput,
-                "A harmonic transform needs a degree from 0 to " +
-                    std::to_string(maximum_harmonic_degree) +
-                    ", at least one azimuth and as many sines as cosines. It was given degree " +
-                    std::to_string(degree) + ", " + std::to_string(azimuths) + " azimuths, " +
-                    std::to_string(cosines.size()) + " cosines and " +
-                    std::to_string(sines.size()) + " sines.");
+    refuse("A harmonic transform needs a degree from 0 to " +
+           std::to_string(maximum_harmonic_degree) +
+           ", at least one azimuth and as many sines as cosines. It was given degree " +
+           std::to_string(degree) + ", " + std::to_string(azimuths) + " azimuths, " +
+           std::to_string(cosines.size()) + " cosines and " + std::to_string(sines.size()) +
+           " sines.");
   }
   // The angles of all orders are among the azimuths. Their indices are reduced as integers, so that
   // equal angles get equal bits.
@@ -79,10 +78,9 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
 std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coefficients,
                                                   const Execution& execution) const {
   if (coefficients.size() != harmonic_count(degree_)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The harmonic transform of degree " + std::to_string(degree_) + " needs " +
-                    std::to_string(harmonic_count(degree_)) + " coefficients, not " +
-                    std::to_string(coefficients.size()) + ".");
+    refuse("The harmonic transform of degree " + std::to_string(degree_) + " needs " +
+           std::to_string(harmonic_count(degree_)) + " coefficients, not " +
+           std::to_string(coefficients.size()) + ".");
   }
   RowMajor orders(rows_, 2 * degree_ + 1);
   execution.parallel_for(legendre_.size(), 4, [&](std::size_t begin, std::size_t end) {
@@ -110,10 +108,9 @@ std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coe
 std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values,
                                                const Execution& execution) const {
   if (values.size() != rows() * azimuths()) {
-    throw Error(ErrorCode::InvalidInput,
-                "The harmonic transform on a grid of " + std::to_string(rows()) + " x " +
-                    std::to_string(azimuths()) + " needs as many values, not " +
-                    std::to_string(values.size()) + ".");
+    refuse("The harmonic transform on a grid of " + std::to_string(rows()) + " x " +
+           std::to_string(azimuths()) + " needs as many values, not " +
+           std::to_string(values.size()) + ".");
   }
   const Eigen::Map<const RowMajor> grid(values.data(), rows_, azimuths_);
   Eigen::MatrixXd orders(rows_, 2 * degree_ + 1);

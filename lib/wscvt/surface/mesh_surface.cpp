@@ -27,12 +27,10 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
                          double overhang_fraction, const Execution& execution)
     : star_shaped_(overhang_fraction == 0.0),
       cube_(CubeMap::resolution_for(mesh.triangles.size())) {
-  if (mesh.triangles.empty()) {
-    throw Error(ErrorCode::InvalidInput, "The mesh is empty. Check it before casting rays at it.");
-  }
+  if (mesh.triangles.empty()) refuse("The mesh is empty. Check it before casting rays at it.");
   if (!(unit > 0.0 && std::isfinite(unit))) {
-    throw Error(ErrorCode::InvalidInput, "The unit of length is " + std::to_string(unit) +
-                                             ". Give a positive one, e.g. the equivalent radius.");
+    refuse("The unit of length is " + std::to_string(unit) +
+           ". Give a positive one, e.g. the equivalent radius.");
   }
   mesh_.triangles = mesh.triangles;
   mesh_.points.resize(mesh.points.size());
@@ -40,9 +38,9 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
     for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
   if (overhang_fraction >= 1.0) {
-    throw Error(ErrorCode::InvalidInput,
-                "The centre lies outside the mesh or on it, so rays from it do not go round the "
-                "surface once. Use a centre inside, e.g. the centroid of a compact grain.");
+    refuse(
+        "The centre lies outside the mesh or on it, so rays from it do not go round the surface "
+        "once. Use a centre inside, e.g. the centroid of a compact grain.");
   }
 
   std::vector<CubeMap::Image> images(mesh_.points.size());

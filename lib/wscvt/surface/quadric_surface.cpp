@@ -16,9 +16,8 @@ namespace {
 void check_semi_axes(const Vector3& semi_axes) {
   for (int i = 0; i < 3; ++i) {
     if (!(semi_axes[i] > 0.0) || !std::isfinite(semi_axes[i])) {
-      throw Error(ErrorCode::InvalidInput, "Semi-axis " + std::to_string(i + 1) + " is " +
-                                               format_number(semi_axes[i]) +
-                                               ". Give three positive lengths.");
+      refuse("Semi-axis " + std::to_string(i + 1) + " is " + format_number(semi_axes[i]) +
+             ". Give three positive lengths.");
     }
   }
 }

@@ -157,18 +157,16 @@ SurfaceIntegrals integrate(const RadialSurface& surface, const Execution& execut
   for (int polar_nodes = 2 * first_polar_nodes; polar_nodes <= last_polar_nodes; polar_nodes *= 2) {
     SurfaceIntegrals fine = integrate(surface, polar_nodes, execution);
     if (!(fine.volume > 0.0) || !std::isfinite(fine.volume) || !std::isfinite(fine.area)) {
-      throw Error(
-          ErrorCode::InvalidInput,
-          "The surface encloses no volume about its origin. Check its axes or coefficients.");
+      refuse("The surface encloses no volume about its origin. Check its axes or coefficients.");
     }
     const double change = std::max(std::abs(fine.volume - coarse.volume) / fine.volume,
                                    std::abs(fine.area - coarse.area) / fine.area);
     if (change <= (polar_nodes < last_polar_nodes ? tolerance : last_tolerance)) return fine;
     coarse = fine;
   }
-  throw Error(ErrorCode::InvalidInput,
-              "The surface is too long, too flat or too sharp to be measured from its origin. Make "
-              "its axes more alike, or round its edges.");
+  refuse(
+      "The surface is too long, too flat or too sharp to be measured from its origin. Make its "
+      "axes more alike, or round its edges.");
 }
 
 }  // namespace wscvt

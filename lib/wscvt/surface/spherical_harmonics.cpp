@@ -26,9 +26,8 @@ namespace {
 
 void check_degree(int degree) {
   if (degree < 0 || degree > maximum_harmonic_degree) {
-    throw Error(ErrorCode::InvalidInput, "The degree of the spherical harmonics is " +
-                                             std::to_string(degree) + ". Give one from 0 to " +
-                                             std::to_string(maximum_harmonic_degree) + ".");
+    refuse("The degree of the spherical harmonics is " + std::to_string(degree) +
+           ". Give one from 0 to " + std::to_string(maximum_harmonic_degree) + ".");
   }
 }
 
@@ -37,10 +36,9 @@ int degree_of(std::size_t coefficients) {
       static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients)))) - 1;
   if (coefficients == 0 || degree > maximum_harmonic_degree ||
       harmonic_count(degree) != coefficients) {
-    throw Error(ErrorCode::InvalidInput,
-                "A series of spherical harmonics has (degree + 1)^2 coefficients, degree 0 to " +
-                    std::to_string(maximum_harmonic_degree) + ", but " +
-                    std::to_string(coefficients) + " were given.");
+    refuse("A series of spherical harmonics has (degree + 1)^2 coefficients, degree 0 to " +
+           std::to_string(maximum_harmonic_degree) + ", but " + std::to_string(coefficients) +
+           " were given.");
   }
   return degree;
 }
@@ -293,9 +291,8 @@ void associated_legendre(int degree, int m, const double* cosines, const double*
                          std::size_t count, double* values) {
   check_degree(degree);
   if (m < 0 || m > degree) {
-    throw Error(ErrorCode::InvalidInput,
-                "The order of an associated Legendre function is " + std::to_string(m) +
-                    ". Give one from 0 to the degree " + std::to_string(degree) + ".");
+    refuse("The order of an associated Legendre function is " + std::to_string(m) +
+           ". Give one from 0 to the degree " + std::to_string(degree) + ".");
   }
   const double constant = sectoral_constant(m);
   for (std::size_t j = 0; j < count; ++j) values[j] = constant * portable::pow(sines[j], m);

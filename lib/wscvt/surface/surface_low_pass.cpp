@@ -118,17 +118,15 @@ SurfaceLowPass::SurfaceLowPass(const std::vector<Triangle>& triangles, std::size
 
 void SurfaceLowPass::check_count(std::size_t count) const {
   if (count == vertices_) return;
-  throw Error(ErrorCode::InvalidInput, "The surface filter was made for " +
-                                           std::to_string(vertices_) + " vertices, but got " +
-                                           std::to_string(count) +
-                                           " points or values. Give one of each per vertex.");
+  refuse("The surface filter was made for " + std::to_string(vertices_) + " vertices, but got " +
+         std::to_string(count) + " points or values. Give one of each per vertex.");
 }
 
 void SurfaceLowPass::set_surface(const std::vector<Vector3>& points, double cutoff,
                                  const Execution& execution) {
   if (!(cutoff > 0.0)) {
-    throw Error(ErrorCode::InvalidInput, "The cut-off length of the surface filter is " +
-                                             format_number(cutoff) + ". Give a positive length.");
+    refuse("The cut-off length of the surface filter is " + format_number(cutoff) +
+           ". Give a positive length.");
   }
   check_count(points.size());
   execution.report(0.0, low_pass_stage);

@@ -99,8 +99,7 @@ RelaxationOptions coarse_options(RelaxationOptions options, bool coarsest) {
 
 std::vector<int> level_sizes(int count) {
   if (count < 4) {
-    throw Error(ErrorCode::InvalidInput,
-                "A tessellation needs at least 4 seeds, not " + std::to_string(count) + ".");
+    refuse("A tessellation needs at least 4 seeds, not " + std::to_string(count) + ".");
   }
   std::vector<int> sizes = {count};
   // V seeds have 3 V - 6 edges, and the next level has a seed in the middle of each: 4 V - 6.
@@ -113,9 +112,8 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
                                   const RelaxationOptions& options, const Execution& execution) {
   const std::vector<int> sizes = level_sizes(count);
   if (static_cast<int>(start.size()) != sizes.front()) {
-    throw Error(ErrorCode::InvalidInput, "The coarsest level has " + std::to_string(start.size()) +
-                                             " seeds instead of " + std::to_string(sizes.front()) +
-                                             ".");
+    refuse("The coarsest level has " + std::to_string(start.size()) + " seeds instead of " +
+           std::to_string(sizes.front()) + ".");
   }
   // Progress by the number of seeds to move; the last level has three quarters of them.
   const auto options_of = [&](std::size_t level) {

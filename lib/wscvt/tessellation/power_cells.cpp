@@ -38,10 +38,9 @@ void compute_power_cells(const SphereTriangulation& triangulation,
                          const Execution& execution, PowerCells& cells) {
   const std::size_t count = sites.size();
   if (count != triangulation.vertex_count() || (!weights.empty() && weights.size() != count)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The triangulation has " + std::to_string(triangulation.vertex_count()) +
-                    " vertices, but there are " + std::to_string(count) + " seeds and " +
-                    std::to_string(weights.size()) + " weights. Give one each.");
+    refuse("The triangulation has " + std::to_string(triangulation.vertex_count()) +
+           " vertices, but there are " + std::to_string(count) + " seeds and " +
+           std::to_string(weights.size()) + " weights. Give one each.");
   }
   const std::vector<Triangle>& triangles = triangulation.triangles();
   const std::vector<std::int32_t>& opposite = triangulation.opposite();

@@ -167,10 +167,7 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
                             const SeedModel& model, const RelaxationOptions& options,
                             const Execution& execution) {
   const std::size_t count = seeds.size();
-  if (count < 4) {
-    throw Error(ErrorCode::InvalidInput,
-                "Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
-  }
+  if (count < 4) refuse("Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
   RelaxationReport report;
   Evaluation evaluation(model, execution);
   if (triangulation) evaluation.start_from(*std::move(triangulation));

@@ -218,8 +218,8 @@ SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const Weighting
                                    int node_count, const Execution& execution)
     : node_count_((check_weighting_options(options), node_count)) {
   if (node_count < 4) {
-    throw Error(ErrorCode::InvalidInput, "The number of nodes is " + std::to_string(node_count) +
-                                             ". A closed mesh needs at least 4.");
+    refuse("The number of nodes is " + std::to_string(node_count) +
+           ". A closed mesh needs at least 4.");
   }
   const double count = node_count;
   const TabulatedSurface table(surface, node_count, execution);
@@ -316,9 +316,7 @@ std::vector<Vector3> unrelaxed_seeds(Sampling sampling, int count) {
     case Sampling::Weighted:
       break;
   }
-  throw Error(
-      ErrorCode::InvalidInput,
-      "The weighted sampling is the result of a relaxation. Use another sampling, or relax.");
+  refuse("The weighted sampling is the result of a relaxation. Use another sampling, or relax.");
 }
 
 std::vector<Vector3> start_seeds(const SurfaceSeedModel& model, int count,
