@@ -54,31 +54,6 @@ std::vector<double> slope(const std::vector<Vector3>& directions) {
   return values;
 }
 
-TEST(SphereGrid, LooksUpSeveralFieldsAsOneByOne) {
-  const std::vector<Vector3> u = directions_with_poles();
-  const std::vector<Vector3> nodes = SphereGrid::directions(32);
-  for (const int stencil : {4, 6}) {
-    const SphereGrid waves(32, stencil, harmonics(6, nodes));
-    const SphereGrid slopes(32, stencil, slope(nodes));
-    std::vector<double> wave(u.size());
-    std::vector<double> sloping(u.size());
-    waves.interpolate(u.data(), u.size(), wave.data());
-    slopes.interpolate(u.data(), u.size(), sloping.data());
-    std::vector<double> first(u.size());
-    std::vector<double> second(u.size());
-    SphereGrid::interpolate({&slopes, &waves}, u.data(), u.size(), {first.data(), second.data()});
-    EXPECT_EQ(first, sloping);
-    EXPECT_EQ(second, wave);
-  }
-  const SphereGrid grid(32, 4);
-  double value = 0.0;
-  for (const SphereGrid& other : {SphereGrid(34, 4), SphereGrid(32, 6)}) {
-    EXPECT_ERROR(SphereGrid::interpolate({&grid, &other}, u.data(), 1, {&value, &value}),
-                 InvalidInput);
-  }
-  EXPECT_ERROR(SphereGrid::interpolate({&grid, &grid}, u.data(), 1, {&value}), InvalidInput);
-}
-
 TEST(SphereGrid, InterpolatesWithinItsErrorBoundAlsoAcrossThePoles) {
   const std::vector<Vector3> u = directions_with_poles();
   const int degree = 6;

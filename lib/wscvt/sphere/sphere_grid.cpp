@@ -108,24 +108,20 @@ inline Stencil<stencil> make_stencil(const Vector3& u, int rows, std::size_t str
   return result;
 }
 
-/// Interpolates `fields` grids, from nodes[k] to values[k].
 template <int stencil>
-void interpolate_stencils(const double* const* nodes, std::size_t fields, int rows,
-                          std::size_t stride, const Vector3* directions, std::size_t count,
-                          double* const* values) {
+void interpolate_stencils(const double* nodes, int rows, std::size_t stride,
+                          const Vector3* directions, std::size_t count, double* values) {
   for (std::size_t i = 0; i < count; ++i) {
     const Stencil<stencil> at = make_stencil<stencil>(directions[i], rows, stride);
-    for (std::size_t k = 0; k < fields; ++k) {
-      const double* node = nodes[k] + at.start;
-      double sum = 0.0;
-      for (int a = 0; a < stencil; ++a) {
-        double row_sum = 0.0;
-        for (int b = 0; b < stencil; ++b) row_sum += at.column[b] * node[b];
-        sum += at.row[a] * row_sum;
-        node += stride;
-      }
-      values[k][i] = sum;
+    const double* node = nodes + at.start;
+    double sum = 0.0;
+    for (int a = 0; a < stencil; ++a) {
+      double row_sum = 0.0;
+      for (int b = 0; b < stencil; ++b) row_sum += at.column[b] * node[b];
+      sum += at.row[a] * row_sum;
+      node += stride;
     }
+    values[i] = sum;
   }
 }
 
@@ -252,30 +248,7 @@ void SphereGrid::fold_halo() {
 
 void SphereGrid::interpolate(const Vector3* directions, std::size_t count, double* values) const {
   const auto function = stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;
-  const double* nodes = nodes_.data();
-  function(&nodes, 1, rows_, stride(), directions, count, &values);
-}
-
-void SphereGrid::interpolate(const std::vector<const SphereGrid*>& grids, const Vector3* directions,
-                             std::size_t count, const std::vector<double*>& values) {
-  std::vector<const double*> nodes;
-  nodes.reserve(grids.size());
-  for (const SphereGrid* grid : grids) {
-    if (grid->rows_ != grids[0]->rows_ || grid->stencil_ != grids[0]->stencil_) {
-      refuse("Grids of the sphere that are looked up together need equal rows and stencils, not " +
-             std::to_string(grid->rows_) + " and " + std::to_string(grid->stencil_) + " beside " +
-             std::to_string(grids[0]->rows_) + " and " + std::to_string(grids[0]->stencil_) + ".");
-    }
-    nodes.push_back(grid->nodes_.data());
-  }
-  if (values.size() != grids.size()) {
-    refuse("There are " + std::to_string(grids.size()) + " grids of the sphere and " +
-           std::to_string(values.size()) + " arrays for their values. Give one each.");
-  }
-  if (grids.empty()) return;
-  const auto function = grids[0]->stencil_ == 4 ? interpolate_stencils<4> : interpolate_stencils<6>;
-  function(nodes.data(), nodes.size(), grids[0]->rows_, grids[0]->stride(), directions, count,
-           values.data());
+  function(nodes_.data(), rows_, stride(), directions, count, values);
 }
 
 void SphereGrid::spread_block(const Vector3* directions, std::size_t count, const double* values) {

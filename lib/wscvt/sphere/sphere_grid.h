@@ -46,12 +46,6 @@ class SphereGrid {
   /// depend on the other directions.
   void interpolate(const Vector3* directions, std::size_t count, double* values) const;
 
-  /// Interpolates several fields at once, each into its own array, because finding a direction's
-  /// position on the grid takes more than half of a look-up. Throws Error(InvalidInput) unless all
-  /// `grids` have equal rows and stencil and there is one array per grid.
-  static void interpolate(const std::vector<const SphereGrid*>& grids, const Vector3* directions,
-                          std::size_t count, const std::vector<double*>& values);
-
   /// Computes the transpose of `interpolate`: spreads every point's value over its stencil. For
   /// every f that the interpolation reproduces, the sum over the nodes of (node value x f) then
   /// equals the sum over the points of (value x f). The bytes do not depend on the number of
