@@ -33,7 +33,9 @@ TEST(MeshDistance, AgreesWithTheClosedFormOfACube) {
     const Vector3 p(uniform(engine), uniform(engine), uniform(engine));
     EXPECT_NEAR(query.distance(p), distance_to_cube(p, 0.5), 1e-14);
     EXPECT_EQ(query.contains(p), p.cwiseAbs().maxCoeff() < 0.5);
-    const Vector3 nearest = query.nearest_point(p);
+    std::size_t face = 0;
+    query.squared_distance(p, face, 0.0);
+    const Vector3 nearest = query.nearest_point_of(face, p);
     EXPECT_NEAR((nearest - p).norm(), query.distance(p), 1e-14);
     EXPECT_NEAR(nearest.cwiseAbs().maxCoeff(), 0.5, 1e-14);
   }

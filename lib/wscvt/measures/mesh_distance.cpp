@@ -249,12 +249,6 @@ std::vector<std::size_t> MeshDistance::faces_within(const Vector3& point, double
   return faces;
 }
 
-Vector3 MeshDistance::nearest_point(const Vector3& point) const {
-  std::size_t face = nearby_face(point);
-  squared_distance(point, face, 0.0);
-  return nearest_point_of(face, point);
-}
-
 double MeshDistance::distance(const Vector3& point) const {
   std::size_t face = nearby_face(point);
   return std::sqrt(squared_distance(point, face, 0.0));

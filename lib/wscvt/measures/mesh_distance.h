@@ -30,9 +30,6 @@ class MeshDistance {
   explicit MeshDistance(const IndexedMesh& mesh, const Execution& execution = Execution(1),
                         const std::string& stage = "Measuring distances");
 
-  /// Returns the nearest point of the surface.
-  Vector3 nearest_point(const Vector3& point) const;
-
   /// Returns the distance to the nearest point of the surface, >= 0; length.
   double distance(const Vector3& point) const;
 
