@@ -17,6 +17,12 @@
 namespace wscvt {
 namespace {
 
+std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
+                                                 const std::vector<BallCentre>& centres,
+                                                 double radius, const Execution& execution) {
+  return wscvt::ball_curvatures(patches, centres, std::vector<double>{radius}, execution).front();
+}
+
 /// Every patch, at its own centre.
 std::vector<BallCentre> all_places(const SurfacePatches& patches) {
   std::vector<BallCentre> places;

@@ -279,13 +279,6 @@ SurfacePatches surface_patches(const IndexedMesh& mesh, double radius) {
   return patches;
 }
 
-std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
-                                                 const std::vector<BallCentre>& centres,
-                                                 double radius, const Execution& execution) {
-  return std::move(
-      ball_curvatures(patches, centres, std::vector<double>{radius}, execution).front());
-}
-
 std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
     const SurfacePatches& patches, const std::vector<BallCentre>& centres,
     const std::vector<double>& radii, const Execution& execution) {

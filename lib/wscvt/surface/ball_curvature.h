@@ -40,24 +40,19 @@ struct BallCentre {
 };
 
 /// Computes principal curvatures by a weighted linear fit of normals to positions, over the patches
-/// in the ball of `radius` > 0 about a point that are connected to it inside the ball. Weights are
-/// area times (1 - d^2 / radius^2)^2, d the distance of a patch's centre. On spheres and cylinders
-/// the normal is linear in the position, so their curvature is exact for every radius. Around an
-/// edge the total turn is conserved and spread over the ball. In 1/length, positive where convex; 0
-/// if the ball contains fewer than three patches.
+/// in the ball of a radius about a point that are connected to it inside the ball. Weights are area
+/// times (1 - d^2 / radius^2)^2, d the distance of a patch's centre. On spheres and cylinders the
+/// normal is linear in the position, so their curvature is exact for every radius. Around an edge
+/// the total turn is conserved and spread over the ball. In 1/length, positive where convex; 0 if
+/// the ball contains fewer than three patches.
 ///
 /// The fit of the shape operator to normals follows Rusinkiewicz (2004), "Estimating curvatures and
 /// their derivatives on triangle meshes", 3DPVT, 486-493; balls instead of rings make the result
 /// independent of the mesh's fineness.
 ///
-/// The bits do not depend on the number of threads. Throws Error(InvalidInput) if the radius is not
+/// `radii` > 0 ascend. Returns a list for each, in little more time than the largest takes. The
+/// bits do not depend on the number of threads. Throws Error(InvalidInput) if a radius is not
 /// positive, and Error(Cancelled).
-std::vector<PrincipalCurvatures> ball_curvatures(const SurfacePatches& patches,
-                                                 const std::vector<BallCentre>& centres,
-                                                 double radius, const Execution& execution);
-
-/// Computes curvatures for several ascending radii about the same points and returns a list for
-/// each radius. Takes little more time than the largest radius.
 std::vector<std::vector<PrincipalCurvatures>> ball_curvatures(
     const SurfacePatches& patches, const std::vector<BallCentre>& centres,
     const std::vector<double>& radii, const Execution& execution);
