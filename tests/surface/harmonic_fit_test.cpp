@@ -13,6 +13,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/quadric_surface.h"
 #include "wscvt/surface/radial_surface.h"
@@ -20,7 +21,10 @@
 namespace wscvt {
 namespace {
 
-MeshSurface rays_at(const IndexedMesh& mesh) { return {mesh, Vector3::Zero(), 1.0, Execution(1)}; }
+MeshSurface rays_at(const IndexedMesh& mesh) {
+  const double overhang = overhang_solid_angle(mesh, Vector3::Zero(), Execution(1));
+  return {mesh, Vector3::Zero(), 1.0, overhang, Execution(1)};
+}
 
 HarmonicSurface grain(int degree, std::uint64_t seed) {
   return HarmonicSurface(test::random_harmonics(degree, seed));

@@ -11,6 +11,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/overhangs.h"
 #include "wscvt/sphere/sphere_sampling.h"
 
 namespace wscvt {
@@ -18,7 +19,8 @@ namespace {
 
 MeshSurface surface_of(const IndexedMesh& mesh, const Vector3& centre = Vector3::Zero(),
                        double unit = 1.0) {
-  return MeshSurface(mesh, centre, unit, Execution(1));
+  return MeshSurface(mesh, centre, unit, overhang_solid_angle(mesh, centre, Execution(1)),
+                     Execution(1));
 }
 
 /// Outermost distance by testing every triangle (Moeller and Trumbore), with edges taken
@@ -185,8 +187,8 @@ TEST(MeshSurface, IntegratesToTheVolumeOfTheMesh) {
 TEST(MeshSurface, GivesTheSameBytesOnAnyNumberOfThreads) {
   const IndexedMesh mesh = test::lumpy(5);
   const std::vector<Vector3> u = random_directions(5000, test::announced(11));
-  const MeshSurface one(mesh, Vector3::Zero(), 1.3, Execution(1));
-  const MeshSurface four(mesh, Vector3::Zero(), 1.3, Execution(4));
+  const MeshSurface one(mesh, Vector3::Zero(), 1.3, 0.0, Execution(1));
+  const MeshSurface four(mesh, Vector3::Zero(), 1.3, 0.0, Execution(4));
   EXPECT_EQ(one.radii(u, Execution(1)), four.radii(u, Execution(4)));
   for (const Vector3& v : u) {
     EXPECT_EQ(one.outermost_hit(v).triangle, four.outermost_hit(v).triangle);

@@ -6,7 +6,6 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
-#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 
@@ -18,10 +17,6 @@ constexpr std::size_t ray_block = 8192;
 constexpr std::size_t entries_per_triangle = 20;
 
 }  // namespace
-
-MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
-                         const Execution& execution)
-    : MeshSurface(mesh, centre, unit, overhang_solid_angle(mesh, centre, execution), execution) {}
 
 MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
                          double overhang_fraction, const Execution& execution)

@@ -14,14 +14,10 @@ namespace wscvt {
 /// Hessian are derivatives of the radius of the hit plane, d / (n . u).
 class MeshSurface : public RadialSurface {
  public:
-  /// Stores a copy of the closed, outward mesh, moved by -centre and scaled by 1/unit. Throws
+  /// Stores a copy of the closed, outward mesh, moved by -centre and scaled by 1/unit.
+  /// `overhang_fraction`: the mesh's overhang_solid_angle about the centre. Throws
   /// Error(InvalidInput) if the mesh is empty, the unit is not positive, or the centre lies on the
   /// mesh or outside.
-  MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit,
-              const Execution& execution);
-
-  /// Constructs with a known `overhang_fraction`, the mesh's overhang_solid_angle about the centre.
-  /// This saves a sixth of the construction time.
   MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double unit, double overhang_fraction,
               const Execution& execution);
 

@@ -36,7 +36,7 @@ const IndexedMesh& scan_of(std::int64_t vertices) {
 
 const HarmonicSurface& surface() {
   static const HarmonicSurface fitted = [] {
-    const MeshSurface rays(scan_of(20000), Vector3::Zero(), 1.0, Execution());
+    const MeshSurface rays(scan_of(20000), Vector3::Zero(), 1.0, 0.0, Execution());
     return fit_harmonics(rays, 20, Execution()).surface;
   }();
   return fitted;
@@ -98,7 +98,7 @@ void prepare_distances(benchmark::State& state) {
 
 void fit_degree_30(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
-  const MeshSurface rays(scan_of(state.range(0)), Vector3::Zero(), 1.0, execution);
+  const MeshSurface rays(scan_of(state.range(0)), Vector3::Zero(), 1.0, 0.0, execution);
   for (auto _ : state) {
     benchmark::DoNotOptimize(fit_harmonics(rays, 30, execution));
   }
@@ -170,7 +170,7 @@ void relaxation(benchmark::State& state) {
 /// The rays of the nodes onto a scan of 100,000 vertices.
 void cast_rays(benchmark::State& state) {
   const Execution execution(static_cast<int>(state.range(1)));
-  const MeshSurface rays(scan_of(100000), Vector3::Zero(), 1.0, execution);
+  const MeshSurface rays(scan_of(100000), Vector3::Zero(), 1.0, 0.0, execution);
   const std::vector<Vector3> directions = fibonacci_lattice(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(rays.radii(directions, execution));
   count(state, state.range(0));
