@@ -29,14 +29,7 @@ py::array_t<double> signed_distances(const Points& points, const Points& vertice
   }
   const IndexedMesh mesh = mesh_of(vertices, faces);
   std::vector<double> values = work_on(threads, progress, [&](const Execution& execution) {
-    const MeshDistance distance(mesh, execution);
-    std::vector<double> found = distance.distances(places, execution);
-    execution.parallel_for(places.size(), 1000, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        if (distance.contains(places[i])) found[i] = -found[i];
-      }
-    });
-    return found;
+    return MeshDistance(mesh, execution).signed_distances(places, execution);
   });
   return array_of(values);
 }
