@@ -10,7 +10,6 @@
 
 #include "bindings.h"
 #include "conversion.h"
-#include "option_arguments.h"
 #include "toolbox/clump/clump.h"
 #include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/clump_report.h"

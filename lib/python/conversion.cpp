@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "conversion.h"
 
+#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "toolbox/volume/label_grains.h"
 #include "toolbox/volume/open_volume.h"
+#include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text.h"
 
@@ -157,6 +159,16 @@ IndexedMesh mesh_of_reference(const py::object& reference) {
   } catch (const py::cast_error&) {
     throw py::type_error("The reference is of type " + type_name_of(reference) +
                          ". Give a pair of arrays, (vertices, faces).");
+  }
+}
+
+bool goes_on(const py::object& answer) {
+  if (answer.is_none()) return true;
+  try {
+    return answer.cast<bool>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("The progress function returned a value of type " + type_name_of(answer) +
+                         ". Return True, or False to cancel.");
   }
 }
 

@@ -12,12 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/clump/clump_options.h"
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/text.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::python {
 
@@ -88,6 +90,15 @@ void warn(const Sentence& sentence);
 
 /// Converts JSON to dictionaries, lists and numbers.
 pybind11::object parsed(const std::string& json);
+
+/// Sets the options of the remesh of a function ("remesh", "create", "convex", "batch") that are
+/// given by keyword, "edge_ratio" for "edge-ratio". The others have the defaults of the program's
+/// command of this name. Throws TypeError for names that this command does not have and for values
+/// of another type, Error for values out of range.
+RemeshOptions options_of(const pybind11::dict& given, const std::string& function);
+
+/// Returns the options of clump; as options_of.
+ClumpOptions clump_options_of(const pybind11::dict& given);
 
 }  // namespace wscvt::python
 

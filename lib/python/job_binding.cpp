@@ -15,7 +15,6 @@
 
 #include "bindings.h"
 #include "conversion.h"
-#include "option_arguments.h"
 #include "toolbox/job/label_source.h"
 #include "toolbox/job/remesh_job.h"
 #include "toolbox/volume/open_volume.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "option_arguments.h"
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
