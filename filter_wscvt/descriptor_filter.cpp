@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#include "log_text.h"
 #include "report_file.h"
-#include "shown_words.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/report/descriptor_report.h"

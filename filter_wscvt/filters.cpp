@@ -13,9 +13,8 @@
 
 #include "creation_filter.h"
 #include "descriptor_filter.h"
+#include "log_text.h"
 #include "remesh_filter.h"
-#include "remesh_report.h"
-#include "shown_words.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/measures/descriptor_table.h"

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "log_text.h"
 #include "node_parameters.h"
 #include "parameters.h"
 #include "wscvt/remesh.h"
@@ -29,5 +31,10 @@ struct RemeshSettings {
 
 /// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.
 RemeshSettings read_remesh_settings(const ParameterValues& values);
+
+/// Returns a run's log, short and narrow enough for a host's panel: changes with one row per
+/// measure, repairs, time, the `notes`, warnings, verdict. The report contains everything else.
+std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
+                               const std::vector<std::string>& notes = {});
 
 }  // namespace wscvt::filter
