@@ -135,11 +135,7 @@ int run(const ClumpArguments& arguments) {
       write_clump(path, clump, job.frame, job.density);
     });
   }
-  for (const std::string& report : common.reports) {
-    work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, clump, origin_of(scan), execution);
-    });
-  }
+  work.write_reports(common.reports, clump, origin_of(scan));
   work.print_made(clump.warnings, clump_lines(clump));
   return Done;
 }

@@ -114,11 +114,7 @@ int run(const ConvexArguments& arguments) {
       if (!warning.empty()) result.warnings.push_back(warning);
     });
   }
-  for (const std::string& name : common.reports) {
-    work.write(name, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, origin_of(scan), execution);
-    });
-  }
+  work.write_reports(common.reports, result, origin_of(scan));
   work.print_made(result.warnings, parts_lines(result));
   return Done;
 }

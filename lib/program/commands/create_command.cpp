@@ -136,12 +136,7 @@ int run(const CreateArguments& arguments) {
 
   work.write(arguments.output,
              [&](const std::string& path, const Execution&) { write_mesh(result.mesh, path); });
-  const ReportOrigin origin = origin_of(surface_name(arguments.surface));
-  for (const std::string& report : common.reports) {
-    work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, origin, execution);
-    });
-  }
+  work.write_reports(common.reports, result, origin_of(surface_name(arguments.surface)));
   work.print_log(result, common.verbose);
   return Done;
 }

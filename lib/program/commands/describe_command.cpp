@@ -68,15 +68,6 @@ std::optional<double> size_of_voxel(const VolumeChoice& choice) {
   return size[0];
 }
 
-template <class Result>
-void write_reports(const DescribeArguments& arguments, const Result& result, Work& work) {
-  for (const std::string& report : arguments.common.reports) {
-    work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, origin_of(arguments.grain), execution);
-    });
-  }
-}
-
 void describe_mesh(const DescribeArguments& arguments) {
   const bool compares = !arguments.reference.empty();
   std::optional<double> voxel_size;
@@ -108,7 +99,7 @@ void describe_mesh(const DescribeArguments& arguments) {
   if (voxel_size) {
     add_resolution(measures, *voxel_size, arguments.options, work.execution().part(share, 1.0));
   }
-  write_reports(arguments, measures, work);
+  work.write_reports(arguments.common.reports, measures, origin_of(arguments.grain));
   for (const Sentence& remark : remarks(measures)) warnings.push_back(remark);
   work.print(warnings, descriptor_lines(measures));
 }
@@ -133,7 +124,7 @@ void compare_parts(const DescribeArguments& arguments) {
   result.measures =
       measure_parts(result.parts, result.grain, work.execution().part(reading_share, 1.0));
   result.scan = describe_shape(result.grain, work.execution().part(1.0, 1.0));
-  write_reports(arguments, result, work);
+  work.write_reports(arguments.common.reports, result, origin_of(arguments.grain));
   work.print(result.warnings, parts_lines(result));
 }
 

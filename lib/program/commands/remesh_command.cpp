@@ -149,11 +149,7 @@ int run(const RemeshArguments& arguments) {
     });
   }
   const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work);
-  for (const std::string& report : common.reports) {
-    work.write(report, [&](const std::string& path, const Execution& execution) {
-      write_report(path, result, origin, execution);
-    });
-  }
+  work.write_reports(common.reports, result, origin);
   if (!arguments.coefficients.empty()) {
     work.write(arguments.coefficients, [&](const std::string& path, const Execution&) {
       write_coefficients(path, result);

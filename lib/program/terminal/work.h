@@ -36,6 +36,17 @@ class Work {
     written_.push_back(path);
   }
 
+  /// Writes the reports of a result, each in the format of its file's name.
+  template <class Result>
+  void write_reports(const std::vector<std::string>& reports, const Result& result,
+                     const ReportOrigin& origin) {
+    for (const std::string& report : reports) {
+      write(report, [&](const std::string& path, const Execution& execution) {
+        write_report(path, result, origin, execution);
+      });
+    }
+  }
+
   /// Clears the progress line. Prints warnings to the standard error, and the lines to the standard
   /// output unless quiet.
   void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
