@@ -6,31 +6,10 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt::filter {
-
-namespace {
-
-std::string extension_of(const std::string& path) {
-  const QString suffix = QFileInfo(QString::fromStdString(path)).suffix().toLower();
-  return suffix.isEmpty() ? std::string() : "." + suffix.toStdString();
-}
-
-[[noreturn]] void refuse_extension(const std::string& path,
-                                   const std::vector<std::string>& extensions,
-                                   const std::string& parameter) {
-  std::string wanted;
-  for (const std::string& extension : extensions) {
-    if (!wanted.empty()) wanted += extension == extensions.back() ? " or " : ", ";
-    wanted += extension;
-  }
-  refuse("Parameter " + parameter + " is '" + path +
-         "', but the extension does not fit. Give a file name that ends in " + wanted +
-         ". Nothing was changed.");
-}
-
-}  // namespace
 
 FilterParameter report_file_parameter() {
   return output_file_parameter(
@@ -51,9 +30,15 @@ void check_descriptor_report_file(const std::string& path, bool with_reference) 
 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,
                      const std::string& parameter) {
-  if (std::find(extensions.begin(), extensions.end(), extension_of(path)) == extensions.end()) {
-    refuse_extension(path, extensions, parameter);
+  if (std::find(extensions.begin(), extensions.end(), ending_of(path)) != extensions.end()) return;
+  std::string wanted;
+  for (const std::string& extension : extensions) {
+    if (!wanted.empty()) wanted += extension == extensions.back() ? " or " : ", ";
+    wanted += extension;
   }
+  refuse("Parameter " + parameter + " is '" + path +
+         "', but the extension does not fit. Give a file name that ends in " + wanted +
+         ". Nothing was changed.");
 }
 
 void check_output_file(const std::string& path, const std::vector<std::string>& extensions,
