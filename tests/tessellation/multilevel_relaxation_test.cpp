@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
-#include "support/added_points.h"
 #include "support/expect_error.h"
 #include "support/seed_models.h"
 #include "support/seeds.h"
@@ -17,6 +17,24 @@
 
 namespace wscvt {
 namespace {
+
+/// Fails unless each of the last `added` points has it farther to the nearest other one than the
+/// median has: they were put where there was room.
+void expect_room_about_the_last(const std::vector<Vector3>& points, std::size_t added) {
+  std::vector<double> nearest;
+  for (const Vector3& p : points) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Vector3& q : points) {
+      if (&p != &q) smallest = std::min(smallest, (p - q).norm());
+    }
+    nearest.push_back(smallest);
+  }
+  std::vector<double> sorted = nearest;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t k = 1; k <= added; ++k) {
+    EXPECT_GT(nearest[points.size() - k], sorted[points.size() / 2]);
+  }
+}
 
 using test::ellipsoid;
 using test::model_of;
@@ -57,7 +75,7 @@ TEST(MultilevelRelaxation, SeedsThatAreMissingAreAddedWhereThereIsMostRoom) {
       relax_multilevel(random_directions(coarse, test::announced(4)), count,
                        model_of(ellipsoid(), Weighting::Constant, count), options, Execution(1));
   ASSERT_EQ(static_cast<int>(result.seeds.size()), count);
-  test::expect_room_about_the_last(result.seeds, 3);
+  expect_room_about_the_last(result.seeds, 3);
 }
 
 TEST(MultilevelRelaxation, ConvergesWithTheExactCountForEveryWeighting) {
