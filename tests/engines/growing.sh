@@ -22,4 +22,4 @@ PATH=$(dirname "$program"):$PATH sh -eu commands > growing.log 2>&1 || {
   tail -n 30 growing.log >&2
   exit 1
 }
-grep '^Packed 500 grains' growing.log
+grep '^Yade: 500 grains' growing.log

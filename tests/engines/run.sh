@@ -57,24 +57,6 @@ done
 awk '{ hertz = 4 / 3 / (1 - 0.25 ^ 2) * 0.05 ^ 1.5
        exit !($2 > hertz && $2 < 1.5 * hertz && ($2 - $7) ^ 2 < (1e-6 * $2) ^ 2) }' compression.log
 
-# Templates of nine bodies, packed by the files that stand beside them.
-mkdir -p bodies
-for k in 1 2 3 4 5 6 7 8 9; do
-  "$program" create superellipsoid "bodies/body_$k.ply" -q -n 300 \
-    --semi-axes "1.$k" 1 "0.$((12 - k))" --exponents "0.$((2 + k))" 1
-done
-"$program" grow --templates bodies -o templates -q -k 3 -n 100
-(cd templates && yade -n -x yade_packing.py 12 > yade.log 2>&1) || {
-  tail -n 30 templates/yade.log >&2
-  exit 1
-}
-grep '^Packed 12 grains' templates/yade.log
-(cd templates && sed 's/^variable grains equal .*/variable grains equal 20/' liggghts.in > packing.in &&
-  liggghts -in packing.in > liggghts.out 2>&1) || {
-  tail -n 30 templates/liggghts.out >&2
-  exit 1
-}
-"$python" "$here/liggghts_packing_test.py" templates/packing.in templates/liggghts.out 20
 # The document's own commands: 20 templates, and 500 virtual grains, packed.
 sh "$here/growing.sh" "$program" "$folder/growing"
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <sstream>
 
 #include "support/expect_error.h"
@@ -37,35 +36,10 @@ TEST(TemplateFiles, HoldTheSizeCurveByMass) {
   EXPECT_ERROR(size_curve_csv({}), InvalidInput);
 }
 
-TEST(TemplateFiles, KnowDiametersByMass) {
-  EXPECT_DOUBLE_EQ(diameter_by_mass({2.0, 1.0}, 0.0), 1.0);
-  EXPECT_DOUBLE_EQ(diameter_by_mass({2.0, 1.0}, 1.0), 2.0);
-  EXPECT_DOUBLE_EQ(diameter_by_mass({2.0, 1.0}, 0.5), std::sqrt(2.0));
-  EXPECT_ERROR(diameter_by_mass({}, 0.5), InvalidInput);
+TEST(TemplateFiles, GiveMercuryTheSameCurveByRadius) {
   const std::string psd = mercury_psd_csv({2.0, 1.0});
   EXPECT_EQ(psd.substr(0, 6), "0.5,0\n");
   EXPECT_NE(psd.find("\n1,1\n"), std::string::npos) << psd;
-}
-
-TEST(TemplateFiles, WriteSpheresAsRows) {
-  EXPECT_EQ(sphere_rows({{{1.0, -2.0, 0.5}, 0.25}, {{0.0, 0.0, 0.0}, 1.0}}),
-            "1 -2 0.5 0.25\n0 0 0 1\n");
-}
-
-TEST(TemplateFiles, GiveLiggghtsTheWeightsByMass) {
-  const std::string input = liggghts_template_input(
-      {{"a.spheres", 7, 0.75}, {"b.spheres", 3, 0.0}, {"c.spheres", 5, 0.25}}, {0.5, 2.0});
-  EXPECT_NE(input.find("nspheres 7 ntry 200000 spheres file a.spheres scale 2 type 2"),
-            std::string::npos)
-      << input;
-  EXPECT_NE(input.find("particledistribution/discrete 15485867 4 t1 0.375 t2 0.375 t3 0.125 t4 "
-                       "0.125\n"),
-            std::string::npos)
-      << input;
-  EXPECT_EQ(input.find("b.spheres"), std::string::npos);
-  EXPECT_NE(input.find("variable side equal 16\n"), std::string::npos) << "8 of the largest grain";
-  EXPECT_ERROR(liggghts_template_input({}, {1.0}), InvalidInput);
-  EXPECT_ERROR(liggghts_template_input({{"a.spheres", 7, 1.0}}, {}), InvalidInput);
 }
 
 }  // namespace

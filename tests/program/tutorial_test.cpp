@@ -59,8 +59,8 @@ TEST_F(Tutorial, OfSamplesRunsWordForWord) {
 TEST_F(Tutorial, OfGrowingRuns) {
   write_scans(21);
   EXPECT_GE(run_commands("grow.md", true), 2);
-  for (const char* made : {"templates/template-20.ply", "templates/liggghts.in",
-                           "grown/grown-00012.ply", "grown/yade_packing.py"}) {
+  for (const char* made : {"templates/template-20.ply", "templating/run.py",
+                           "grown/grown-00012.ply", "packing/run.py"}) {
     EXPECT_TRUE(exists(made)) << made;
   }
 }

@@ -82,11 +82,10 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
        {"scans -k 10000 -o grown", "coefficients -k 500 -o grown -n 300 --format stl",
         "scans -k 2000 -o grown --sizes sieve.csv", "scans --templates -k 20 -o chosen",
         "shape.csv --templates -k 50 -o chosen --descriptors convexity,roundness_wadell"},
-       "OUT gets a mesh per grain, grown.csv and a script for Yade; of templates, meshes of the "
-       "volume "
-       "of a sphere of diameter 1, templates.csv (weights and sizes), sizes.csv (the size curve), "
-       "distances.csv, and files for Yade, LIGGGHTS and MercuryDPM. Meshes are in the principal "
-       "frame.",
+       "OUT gets a mesh per grain and grown.csv; of templates, meshes of the volume of a sphere of "
+       "diameter 1, templates.csv (weights and sizes), sizes.csv and mercury_psd.csv (the size "
+       "curve) and distances.csv. Meshes are in the principal frame. wscvt clump OUT --engine NAME "
+       "makes a folder in which an engine packs them.",
        false,
        true});
   app.add_option(

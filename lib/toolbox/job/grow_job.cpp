@@ -9,7 +9,6 @@
 #include <numeric>
 #include <utility>
 
-#include "toolbox/exchange/template_files.h"
 #include "toolbox/sample/grain_grower.h"
 #include "toolbox/sample/grain_table.h"
 #include "toolbox/sample/grown_mesh.h"
@@ -262,9 +261,6 @@ GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGri
   grown.end = run_job(job, grains, host);
   if (grown.end.was_cancelled()) return grown;
   const JobFolder folder = folders_of(job).front();
-  if (options.format == "ply") {
-    write_file((fs::path(options.folder) / "yade_packing.py").string(), yade_packing_script());
-  }
   if (options.shard.count > 1) return grown;
   grown.lines =
       lines_of(growing, read_grain_table(folder.file("grown", ".csv")), real.left_out, execution);

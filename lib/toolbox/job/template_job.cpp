@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <numeric>
 #include <utility>
 
-#include "toolbox/clump/clump_fit.h"
 #include "toolbox/exchange/template_files.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
@@ -27,24 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int spheres_of_template = 12;  ///< of a template's clump
-
-/// Returns the mesh with an equivalent radius of 1, about its centroid in its principal frame.
-IndexedMesh unit_mesh(IndexedMesh mesh, const Execution& execution) {
+/// Returns the mesh with an equivalent diameter of 1, about its centroid in its principal frame.
+IndexedMesh template_mesh(IndexedMesh mesh, const Execution& execution) {
   const ShapeDescriptors shape = describe_shape(mesh, execution);
   const double radius = equivalent_radius(shape.volume);
   const Eigen::Matrix3d turn = shape.principal_axes.toRotationMatrix().transpose();
-  for (Vector3& point : mesh.points) point = turn * (point - shape.centroid) / radius;
+  for (Vector3& point : mesh.points) point = 0.5 * (turn * (point - shape.centroid) / radius);
   return mesh;
-}
-
-/// Returns a clump for the template, with an equivalent diameter of 1.
-std::vector<Sphere> clump_of(const IndexedMesh& unit, const Execution& execution) {
-  ClumpOptions options;
-  options.sphere_count = spheres_of_template;
-  std::vector<Sphere> spheres = fit_spheres(unit, options, execution).spheres;
-  for (Sphere& sphere : spheres) sphere = {0.5 * sphere.centre, 0.5 * sphere.radius};
-  return spheres;
 }
 
 std::vector<double> masses_of(const DescribedSample& sample) {
@@ -141,7 +127,6 @@ GrainJob files_of(const TemplateJob& options) {
   job.folder = options.folder;
   job.shard = options.shard;
   job.ending = options.format;
-  job.more_files = {{"", "spheres"}};
   return job;
 }
 
@@ -162,12 +147,8 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
     const JobFolder& folder = grain.folders.front();
     RemeshOptions remeshed;
     remeshed.node_count = options.nodes;
-    IndexedMesh mesh = remesh(std::move(grain.scan.mesh), remeshed, grain.execution).mesh;
-    mesh = unit_mesh(std::move(mesh), grain.execution);
-    const std::vector<Sphere> spheres = clump_of(mesh, grain.execution);
-    for (Vector3& point : mesh.points) point *= 0.5;
-    write_mesh(mesh, folder.file_of(grain.name));
-    write_file(folder.file_of(grain.name, {"", "spheres"}), sphere_rows(spheres));
+    const IndexedMesh mesh = remesh(std::move(grain.scan.mesh), remeshed, grain.execution).mesh;
+    write_mesh(template_mesh(mesh, grain.execution), folder.file_of(grain.name));
     return {
         template_row(sample, templates, grain.scan.place, grain.name, folder.name_of(grain.name))};
   };
@@ -179,28 +160,13 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
 
 /// Writes what all templates together have.
 void write_sample_files(const TemplateJob& job, const DescribedSample& sample,
-                        const SampleTemplates& templates, const JobFolder& folder,
-                        const GrainSource& grains) {
+                        const SampleTemplates& templates) {
   const auto write = [&](const char* file, const std::string& text) {
     write_file((fs::path(job.folder) / file).string(), text);
   };
   write("distances.csv", distance_table(job, templates));
   write("sizes.csv", size_curve_csv(sample.diameters));
   write("mercury_psd.csv", mercury_psd_csv(sample.diameters));
-  write("yade_packing.py", yade_packing_script());
-  std::vector<double> diameters;  // each represents a third of the mass
-  for (const double sixths : {1.0, 3.0, 5.0}) {
-    diameters.push_back(diameter_by_mass(sample.diameters, sixths / 6.0));
-  }
-  std::vector<ClumpTemplate> clumps;
-  for (std::size_t k = 0; k < grains.size(); ++k) {
-    const std::string path = folder.file_of(grains.name(k), {"", "spheres"});
-    std::ifstream rows(path, std::ios::binary);
-    const auto count = std::count(std::istreambuf_iterator<char>(rows), {}, '\n');
-    clumps.push_back({fs::path(path).filename().string(), static_cast<std::size_t>(count),
-                      templates.by_mass[k]});
-  }
-  write("liggghts.in", liggghts_template_input(clumps, diameters));
 }
 
 }  // namespace
@@ -225,7 +191,7 @@ MadeTemplates make_templates(
   MadeTemplates made;
   made.end = run_job(job, grains, host);
   if (made.end.was_cancelled() || options.shard.count > 1) return made;
-  write_sample_files(options, sample, templates, folders_of(job).front(), grains);
+  write_sample_files(options, sample, templates);
   made.lines = summary_lines(options, sample, templates);
   return made;
 }

@@ -43,8 +43,8 @@ struct MadeTemplates {
 /// Throws Error(InvalidInput) if a template's file would replace one of the sample's files.
 void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample);
 
-/// Chooses the templates and writes a mesh and spheres of each, templates.csv, sizes.csv,
-/// distances.csv, and files for Yade, LIGGGHTS and MercuryDPM. `read` returns the closed mesh of a
+/// Chooses the templates and writes a mesh of each, templates.csv, sizes.csv and distances.csv, and
+/// mercury_psd.csv for MercuryDPM. `read` returns the closed mesh of a
 /// file of the sample, on several threads at once. Throws as run_job and choose_templates, and for
 /// the first template that cannot be made.
 MadeTemplates make_templates(
