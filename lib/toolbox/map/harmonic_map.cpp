@@ -103,17 +103,14 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
   WeightedDirections points{quadrature.directions, quadrature.weights};
   for (double& weight : points.weights) weight *= 4.0 * pi / area;
 
-  HarmonicMapReport report;
   int trial = degree;
   while (trial > 0 && points_per_coefficient * harmonic_count(trial) > points.directions.size())
     --trial;
-  if (trial < degree) report.limit = DegreeLimit::Points;
   const std::unique_ptr<HarmonicEquations> equations = harmonic_equations(points, trial, execution);
   execution.report(0.4, "Fitting the harmonic map");
   for (; trial >= 0; trial -= std::max(1, trial / 8)) {
     equations->set_degree(trial, execution);
-    report.condition = condition_of(*equations, trial, execution);
-    bool converged = report.condition <= largest_condition;
+    bool converged = condition_of(*equations, trial, execution) <= largest_condition;
     std::array<std::vector<double>, 3> coefficients;
     double square = 0.0;
     for (std::size_t k = 0; k < 3 && converged; ++k) {
@@ -124,15 +121,9 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
       square += fit.residual * fit.residual;
       execution.report(0.5 + 0.15 * static_cast<double>(k), "Fitting the harmonic map");
     }
-    if (!converged) {
-      report.limit = DegreeLimit::Condition;
-      continue;
-    }
-    HarmonicMap map(std::move(coefficients));
-    report.degree = trial;
-    report.residual = std::sqrt(square);
+    if (!converged) continue;
     execution.report(1.0, "Fitting the harmonic map");
-    return {std::move(map), report};
+    return {HarmonicMap(std::move(coefficients)), std::sqrt(square)};
   }
   throw Error(ErrorCode::NumericalFailure,
               "No series of spherical harmonics describes the mapped surface, not even of degree "

@@ -3,24 +3,15 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/surface/harmonic_surface.h"
-#include "wscvt/surface/surface_options.h"
 
 namespace wscvt {
 
 class MappedSurface;
 
-/// The report of a harmonic map's fit.
-struct HarmonicMapReport {
-  int degree = 0;  ///< lowered if the surface cannot support the requested degree
-  DegreeLimit limit = DegreeLimit::None;
-  double residual = 0.0;   ///< rms over the area of the distance at equal directions, length
-  double condition = 0.0;  ///< estimate for the equations, common to all coordinates
-};
-
-/// A series and the report of its fit.
+/// A series of the fit's degree, lowered if the surface cannot support the requested one.
 struct HarmonicMapFit {
   HarmonicMap map;
-  HarmonicMapReport report;
+  double residual = 0.0;  ///< rms over the area of the distance at equal directions, length
 };
 
 /// Fits x, y and z over the mapped scan by least squares, weighted by the scan's area: one matrix

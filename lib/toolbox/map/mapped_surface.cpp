@@ -19,6 +19,7 @@ namespace wscvt {
 namespace {
 
 constexpr std::size_t mapped_block = 8192;
+constexpr std::size_t located_block = 1024;
 
 [[noreturn]] void refuse_directions(const std::string& what) {
   throw Error(ErrorCode::InvalidInput,
@@ -90,9 +91,9 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
   }
 }
 
-MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) const {
+MeshPlace MappedSurface::locate(const Vector3& direction) const {
   const auto faces = static_cast<std::int32_t>(mesh_.triangles.size());
-  std::int32_t f = hint >= 0 && hint < faces ? hint : starts_[cube_.cell(direction)];
+  std::int32_t f = starts_[cube_.cell(direction)];
   // A walk with a fixed order of edges could cycle on triangles that are not Delaunay. In random
   // order it ends with probability 1 (Devillers, Pion and Teillaud 2002, "Walking in a
   // triangulation"). The walk has its own random numbers, so that the result depends only on the
@@ -142,13 +143,11 @@ MeshPlace MappedSurface::locate(const Vector3& direction, std::int32_t hint) con
 
 std::vector<Vector3> MappedSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
-  constexpr std::size_t block = 1024;
-  std::vector<Vector3> result(directions.size());
-  execution.parallel_for(directions.size(), block, [&](std::size_t begin, std::size_t end) {
-    // Uses no hint, because a position must not depend on the other directions.
-    for (std::size_t i = begin; i < end; ++i) result[i] = position(directions[i]);
+  std::vector<Vector3> points(directions.size());
+  execution.parallel_for(points.size(), located_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) points[i] = position(locate(directions[i]));
   });
-  return result;
+  return points;
 }
 
 }  // namespace wscvt

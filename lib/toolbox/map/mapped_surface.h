@@ -25,21 +25,14 @@ class MappedSurface {
 
   const IndexedMesh& mesh() const { return mesh_; }
   const std::vector<Vector3>& directions() const { return directions_; }
-  /// The opposite half-edge of each half-edge, numbered as in half_edges.h.
-  const std::vector<std::int32_t>& opposite() const { return opposite_; }
 
   /// Returns the place in a direction (of any length except zero), by a walk over the sphere's
-  /// triangles from the triangle `hint`, or from a table if `hint` is -1. Exact predicates
-  /// guarantee that the triangle contains the direction, for any shape. On an edge or a vertex the
-  /// triangle may depend on the hint, but the position does not, except for rounding. Thread-safe.
-  MeshPlace locate(const Vector3& direction, std::int32_t hint = -1) const;
+  /// triangles from one that a table gives. Exact predicates guarantee that the triangle contains
+  /// the direction, for any shape. Thread-safe.
+  MeshPlace locate(const Vector3& direction) const;
 
-  /// Returns the point of the surface, x(u) in length units of the mesh.
+  /// Returns the point of the surface in length units of the mesh: of a place, or x(u).
   Vector3 position(const MeshPlace& place) const { return combination(mesh_.points, place); }
-  Vector3 position(const Vector3& direction, std::int32_t hint = -1) const {
-    return position(locate(direction, hint));
-  }
-
   std::vector<Vector3> positions(const std::vector<Vector3>& directions,
                                  const Execution& execution) const;
 
