@@ -72,16 +72,6 @@ std::string sentence_of_others(const std::vector<std::string>& names) {
   return text + ".";
 }
 
-/// Returns the last number in a name; nothing without a number.
-std::optional<std::int64_t> number_of(const std::string& path) {
-  const std::string stem = fs::path(path).stem().string();
-  const std::size_t end = stem.find_last_of("0123456789");
-  if (end == std::string::npos) return std::nullopt;
-  const std::size_t before = stem.find_last_not_of("0123456789", end);
-  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
-  return whole_number_in(std::string_view(stem).substr(begin, end + 1 - begin));
-}
-
 /// Returns a name with # for each number in it, in lower case.
 std::string pattern_of(const std::string& path) {
   std::string pattern;
@@ -193,7 +183,9 @@ void check_numbers(const std::string& folder, const std::vector<std::string>& pa
 std::string sentence_of_gap(const std::vector<std::string>& paths) {
   std::vector<std::int64_t> numbers;
   for (const std::string& path : paths) {
-    const std::optional<std::int64_t> number = number_of(path);
+    const std::vector<std::string> in_name = numbers_of(path);
+    if (in_name.empty()) return "";
+    const std::optional<std::int64_t> number = whole_number_in(in_name.back());
     if (!number || (!numbers.empty() && *number <= numbers.back())) return "";
     numbers.push_back(*number);
   }
@@ -210,7 +202,102 @@ std::string sentence_of_gap(const std::vector<std::string>& paths) {
   return "";
 }
 
+bool are_alike(const SliceImage& a, const SliceImage& b) {
+  return a.width == b.width && a.height == b.height && a.numbers == b.numbers;
+}
+
+std::string text_of(const SliceImage& image) {
+  return std::to_string(image.width) + " x " + std::to_string(image.height) + " voxels of " +
+         image.numbers;
+}
+
+/// Slices in separate files, of which one is in memory.
+class ImageStack : public LabelVolume {
+ public:
+  /// `channel`: the selected one; -1: all colours must be equal.
+  ImageStack(const VolumeGeometry& geometry, SliceImage form, std::int64_t channel,
+             std::vector<std::string> paths, ReadSlice read)
+      : LabelVolume(geometry),
+        slice_(std::move(form)),
+        channel_(channel),
+        paths_(std::move(paths)),
+        read_(read),
+        next_row_(slice_.height) {}
+
+  const std::vector<Label>& next_row() override {
+    if (next_row_ == slice_.height) read_next();
+    const auto width = static_cast<std::size_t>(slice_.width);
+    const std::size_t voxel = slice_.channels * slice_.bytes;
+    const std::string& path = paths_[next_slice_ - 1];
+    const char* packed =
+        slice_.content.data() + static_cast<std::size_t>(next_row_) * width * voxel;
+    if (slice_.channels > 1) {
+      const auto chosen = static_cast<std::size_t>(std::max<std::int64_t>(channel_, 0));
+      voxels_.resize(width * slice_.bytes);
+      for (std::size_t x = 0; x < width; ++x) {
+        if (channel_ < 0) check_colours_equal(packed + x * voxel, slice_.bytes, path);
+        std::copy_n(packed + x * voxel + chosen * slice_.bytes, slice_.bytes,
+                    voxels_.data() + x * slice_.bytes);
+      }
+      packed = voxels_.data();
+    }
+    row_.resize(width);
+    labels_of(packed, {static_cast<int>(slice_.bytes), false, false, true}, coding(), row_,
+              {path, next_row_, static_cast<std::int64_t>(next_slice_) - 1});
+    ++next_row_;
+    return row_;
+  }
+
+  void rewind() override {
+    next_slice_ = 0;
+    next_row_ = slice_.height;
+  }
+
+ private:
+  void read_next() {
+    const std::string& path = paths_.at(next_slice_++);
+    SliceImage here = read_(path, true);
+    if (!are_alike(here, slice_)) {  // checked when it was opened, so it has changed since
+      refuse_volume(path, "was changed while it was read. Run the command again.");
+    }
+    slice_ = std::move(here);
+    next_row_ = 0;
+  }
+
+  SliceImage slice_;
+  std::int64_t channel_;
+  std::vector<std::string> paths_;
+  ReadSlice read_;
+  std::size_t next_slice_ = 0;
+  std::int64_t next_row_;
+  std::vector<char> voxels_;
+  std::vector<Label> row_;
+};
+
 }  // namespace
+
+std::unique_ptr<LabelVolume> open_images(const SliceFiles& slices, const VolumeChoice& choice,
+                                         ReadSlice read) {
+  refuse_array_choice(choice, slices.folder);
+  const SliceImage image = read(slices.paths.front(), false);
+  for (const std::string& path : slices.paths) {
+    const SliceImage here = read(path, false);
+    if (are_alike(here, image)) continue;
+    refuse_volume(path, "is a slice of " + text_of(here) + ", but the slices before it have " +
+                            text_of(image) + ". Save all slices alike.");
+  }
+  const auto channels = static_cast<std::int64_t>(image.channels);
+  const bool is_grey = channels > 1 && !choice.channel;
+  const std::int64_t channel =
+      chosen_place({AxisKind::Channel, is_grey ? 1 : channels}, choice, slices.folder);
+  chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
+  VolumeGeometry geometry;
+  geometry.counts = voxel_counts(
+      {image.width, image.height, static_cast<std::int64_t>(slices.paths.size())}, slices.folder);
+  set_lattice(geometry, Eigen::Matrix3d::Identity(), Vector3::Constant(0.5), choice, slices.folder);
+  return std::make_unique<ImageStack>(geometry, image, is_grey && channels > 2 ? -1 : channel,
+                                      slices.paths, read);
+}
 
 bool is_foreign_file(const std::string& name) {
   const std::string lower = lower_case(name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +30,24 @@ struct SliceFiles {
 /// does, and Error(InputOutput) naming the first slice whose size or type differs from the previous
 /// ones.
 std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice& choice);
+
+/// A slice, unpacked.
+struct SliceImage {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::string numbers;        ///< of each voxel, for messages: "3 x 8 bits"
+  std::size_t channels = 1;   ///< numbers of each voxel
+  std::size_t bytes = 1;      ///< of each number, the most significant first
+  std::vector<char> content;  ///< rows from above
+};
+
+/// Reads a file; without `content` only its form. Throws Error(InputOutput), naming it.
+using ReadSlice = SliceImage (*)(const std::string& path, bool with_content);
+
+/// Opens slices that are files of one image each, in the same way. Without a chosen channel, three
+/// equal colours are one, and transparency is no channel of labels.
+std::unique_ptr<LabelVolume> open_images(const SliceFiles& slices, const VolumeChoice& choice,
+                                         ReadSlice read);
 
 /// Opens slices that are PNG files, in the same way.
 std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice& choice);

@@ -21,24 +21,6 @@ namespace wscvt {
 
 namespace {
 
-/// Size and type of an image.
-struct PngImage {
-  png_uint_32 width = 0;
-  png_uint_32 height = 0;
-  int bits = 8;
-  int channels = 1;
-  int passes = 1;
-
-  bool operator==(const PngImage& other) const {
-    return width == other.width && height == other.height && bits == other.bits &&
-           channels == other.channels;
-  }
-  std::string text() const {
-    return std::to_string(width) + " x " + std::to_string(height) + " voxels of " +
-           std::to_string(channels) + " x " + std::to_string(bits) + " bits";
-  }
-};
-
 /// An open PNG. libpng reports errors by longjmp, which must not skip destructors. So the functions
 /// that call libpng have no objects with destructors.
 class PngFile {
@@ -56,23 +38,28 @@ class PngFile {
       close();
       refuse_volume(path, "is not a PNG file (" + shown(said) + "). Export it again.");
     }
+    form_.numbers = std::to_string(form_.channels) + " x " + std::to_string(bits_) + " bits";
   }
   PngFile(const PngFile&) = delete;
   PngFile& operator=(const PngFile&) = delete;
   ~PngFile() { close(); }
 
-  const PngImage& image() const { return image_; }
+  const SliceImage& form() const { return form_; }
 
-  std::size_t row_bytes() const {
-    return static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.channels) *
-           (image_.bits == 16 ? 2 : 1);
-  }
-
-  /// Reads a row over the content of `row`, as an interlaced file needs. Throws Error(InputOutput).
-  void read_row(char* row) {
-    if (!try_row(row)) {
-      refuse_volume(path_, "is cut short or damaged (" + shown(said_) + "). Export it again.");
+  /// Returns the rows. An interlaced image is complete only after its last pass, each of which
+  /// reads over the rows of the pass before. Throws Error(InputOutput).
+  std::vector<char> rows() {
+    const auto height = static_cast<std::size_t>(form_.height);
+    const std::size_t row_bytes =
+        static_cast<std::size_t>(form_.width) * form_.channels * form_.bytes;
+    std::vector<char> rows(row_bytes * height);
+    for (int pass = 0; pass < passes_; ++pass) {
+      for (std::size_t y = 0; y < height; ++y) {
+        if (try_row(rows.data() + y * row_bytes)) continue;
+        refuse_volume(path_, "is cut short or damaged (" + shown(said_) + "). Export it again.");
+      }
     }
+    return rows;
   }
 
  private:
@@ -88,12 +75,13 @@ class PngFile {
     png_init_io(png_, file_);
     png_set_user_limits(png_, 1000000, 1000000);
     png_read_info(png_, info_);
-    image_.width = png_get_image_width(png_, info_);
-    image_.height = png_get_image_height(png_, info_);
-    image_.bits = png_get_bit_depth(png_, info_);
-    image_.channels = png_get_channels(png_, info_);
+    form_.width = png_get_image_width(png_, info_);
+    form_.height = png_get_image_height(png_, info_);
+    bits_ = png_get_bit_depth(png_, info_);
+    form_.bytes = bits_ == 16 ? 2 : 1;
+    form_.channels = png_get_channels(png_, info_);
     png_set_packing(png_);  // numbers of less than 8 bits become bytes with equal values
-    image_.passes = png_set_interlace_handling(png_);
+    passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     return true;
   }
@@ -113,114 +101,23 @@ class PngFile {
   std::FILE* file_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  PngImage image_;
+  SliceImage form_;
+  int bits_ = 8;
+  int passes_ = 1;
   char said_[128] = "";
 };
 
-/// Slices in separate files.
-class PngStack : public LabelVolume {
- public:
-  /// `channel`: the selected one; -1: all colours must be equal.
-  PngStack(const VolumeGeometry& geometry, const PngImage& image, int channel,
-           std::vector<std::string> paths)
-      : LabelVolume(geometry),
-        image_(image),
-        channel_(static_cast<std::size_t>(std::max(0, channel))),
-        needs_grey_(channel < 0),
-        paths_(std::move(paths)),
-        next_row_(image.height) {}
-
-  const std::vector<Label>& next_row() override {
-    if (next_row_ == image_.height) next_slice();
-    const char* packed = nullptr;
-    if (file_->image().passes > 1) {
-      packed = slice_.data() + std::size_t{next_row_} * file_->row_bytes();
-    } else {
-      slice_.resize(file_->row_bytes());
-      file_->read_row(slice_.data());
-      packed = slice_.data();
-    }
-    const VoxelType type{image_.bits == 16 ? 2 : 1, false, false, true};
-    const auto size = static_cast<std::size_t>(type.bytes);
-    row_.resize(image_.width);
-    const RowPlace place = {paths_[next_slice_ - 1], next_row_,
-                            static_cast<std::int64_t>(next_slice_) - 1};
-    ++next_row_;
-    if (image_.channels == 1) {
-      labels_of(packed, type, coding(), row_, place);
-      return row_;
-    }
-    const auto channels = static_cast<std::size_t>(image_.channels);
-    voxels_.resize(size * image_.width);
-    for (std::size_t k = 0; k < voxels_.size(); ++k) {
-      voxels_[k] = packed[(k / size * channels + channel_) * size + k % size];
-    }
-    for (std::size_t x = 0; needs_grey_ && x < image_.width; ++x) {
-      check_colours_equal(packed + x * channels * size, size, place.path);
-    }
-    labels_of(voxels_.data(), type, coding(), row_, place);
-    return row_;
-  }
-
-  void rewind() override {
-    file_.reset();
-    next_slice_ = 0;
-    next_row_ = image_.height;
-  }
-
- private:
-  void next_slice() {
-    file_ = std::make_unique<PngFile>(paths_.at(next_slice_++));
-    next_row_ = 0;
-    if (!(file_->image() == image_)) {  // checked when it was opened, so it has changed since
-      refuse_volume(paths_[next_slice_ - 1],
-                    "was changed while it was read. Run the command again.");
-    }
-    if (file_->image().passes == 1) return;
-    // An interlaced image is complete only after its last pass.
-    slice_.assign(file_->row_bytes() * image_.height, '\0');
-    for (int pass = 0; pass < file_->image().passes; ++pass) {
-      for (std::size_t y = 0; y < image_.height; ++y) {
-        file_->read_row(slice_.data() + y * file_->row_bytes());
-      }
-    }
-  }
-
-  PngImage image_;
-  std::size_t channel_;
-  bool needs_grey_;
-  std::vector<std::string> paths_;
-  std::unique_ptr<PngFile> file_;
-  std::size_t next_slice_ = 0;
-  png_uint_32 next_row_;
-  std::vector<char> slice_;  ///< all rows of an interlaced file, else one
-  std::vector<char> voxels_;
-  std::vector<Label> row_;
-};
+SliceImage read_png(const std::string& path, bool with_content) {
+  PngFile file(path);
+  SliceImage image = file.form();
+  if (with_content) image.content = file.rows();
+  return image;
+}
 
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice& choice) {
-  refuse_array_choice(choice, slices.folder);
-  const PngImage image = PngFile(slices.paths.front()).image();
-  for (const std::string& path : slices.paths) {
-    const PngImage here = PngFile(path).image();
-    if (here == image) continue;
-    refuse_volume(path, "is a slice of " + here.text() + ", but the slices before it have " +
-                            image.text() + ". Save all slices alike.");
-  }
-  // Transparency is no channel of labels; three equal colours are one.
-  const bool is_grey = image.channels > 1 && !choice.channel;
-  const std::int64_t channel =
-      chosen_place({AxisKind::Channel, is_grey ? 1 : image.channels}, choice, slices.folder);
-  chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
-  VolumeGeometry geometry;
-  geometry.counts = voxel_counts(
-      {image.width, image.height, static_cast<std::int64_t>(slices.paths.size())}, slices.folder);
-  set_lattice(geometry, Eigen::Matrix3d::Identity(), Vector3::Constant(0.5), choice, slices.folder);
-  return std::make_unique<PngStack>(geometry, image,
-                                    is_grey && image.channels > 2 ? -1 : static_cast<int>(channel),
-                                    slices.paths);
+  return open_images(slices, choice, read_png);
 }
 
 #else
