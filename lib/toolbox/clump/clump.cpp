@@ -2,6 +2,7 @@
 #include "toolbox/clump/clump.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -57,18 +58,14 @@ MassProperties summed_mass(const std::vector<Sphere>& spheres) {
 double intersection_over_union(const IndexedMesh& grain, const std::vector<Sphere>& spheres,
                                const Execution& execution) {
   constexpr double points = 60000.0;
-  Vector3 low = spheres.front().centre;
-  Vector3 high = low;
-  const auto include = [&](const Vector3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  };
-  for (const Vector3& p : grain.points) include(p);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : grain.points) box.extend(p);
   for (const Sphere& sphere : spheres) {
-    include(sphere.centre + Vector3::Constant(sphere.radius));
-    include(sphere.centre - Vector3::Constant(sphere.radius));
+    box.extend(sphere.centre + Vector3::Constant(sphere.radius));
+    box.extend(sphere.centre - Vector3::Constant(sphere.radius));
   }
-  const Vector3 size = high - low;
+  const Vector3 low = box.min();
+  const Vector3 size = box.sizes();
   const double step = portable::cbrt(size.prod() / points);
   std::vector<Vector3> grid;
   for (double x = 0.5 * step; x < size.x(); x += step) {

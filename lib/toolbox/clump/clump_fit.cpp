@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/clump/clump_fit.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "toolbox/clump/medial_spheres.h"
 #include "toolbox/clump/point_blocks.h"
 #include "toolbox/clump/sphere_fit.h"
 #include "wscvt/base/error.h"
@@ -30,6 +30,65 @@ constexpr double least_radius = 1e-3;
 constexpr double most_bulge = 2.0;
 constexpr const char* stage_name = "Fitting spheres";
 
+/// A point of a surface and its unit outward normal.
+struct SurfaceSample {
+  Vector3 point = Vector3::Zero();
+  Vector3 normal = Vector3::UnitZ();
+};
+
+/// Returns `count` samples evenly distributed by area, with the normals of their faces.
+std::vector<SurfaceSample> surface_samples(const IndexedMesh& mesh, std::size_t count) {
+  std::vector<SurfaceSample> samples;
+  samples.reserve(count);
+  for (const MeshPlace& place : area_uniform_places(mesh, count)) {
+    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(place.triangle)];
+    const Vector3 normal = doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
+    samples.push_back({point_at(mesh, place), normal.normalized()});
+  }
+  return samples;
+}
+
+Sphere shrunk(const SurfaceSample& sample, const PointBlocks& blocks, double largest) {
+  constexpr int most_steps = 30;
+  constexpr double tolerance = 1e-6;
+  double radius = largest;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vector3 centre = sample.point - radius * sample.normal;
+    const Vector3& nearest = blocks.points()[blocks.nearest(centre)];
+    // The sample itself is nearest, or a point equally near.
+    if ((nearest - centre).norm() >= radius * (1.0 - tolerance)) break;
+    const Vector3 chord = sample.point - nearest;
+    const double reach = sample.normal.dot(chord);
+    if (!(reach > 0.0)) break;
+    const double next = 0.5 * chord.squaredNorm() / reach;
+    if (!(next < radius)) break;
+    radius = next;
+  }
+  return {sample.point - radius * sample.normal, radius};
+}
+
+/// For every `step`-th sample, returns the largest sphere inside the surface that touches it there.
+/// A sphere of radius `largest` is shrunk until no sample lies within it (Ma, Bae and Choi 2012,
+/// "3D medial axis point approximation using nearest neighbors and the normal field", Vis. Comput.
+/// 28, 7-19). The centres lie on the medial axis, also in thin and hollow bodies. Between samples
+/// the surface may come nearer, depending on their spacing. Samples replace the surface because
+/// exact distances are slowest at centres of spheres, which are equally far from all faces.
+std::vector<Sphere> medial_spheres(const std::vector<SurfaceSample>& samples, std::size_t step,
+                                   double largest, const Execution& execution) {
+  constexpr std::size_t block = 32;
+  std::vector<Vector3> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+  const PointBlocks blocks(std::move(points));
+  std::vector<Sphere> spheres((samples.size() + step - 1) / step);
+  execution.parallel_for(spheres.size(), block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      spheres[i] = shrunk(samples[i * step], blocks, largest);
+    }
+  });
+  return spheres;
+}
+
 /// Points of a grid, inside and outside the mesh: some 2,000 inside a body as thick as wide.
 struct GridPoints {
   std::vector<Vector3> inside;
@@ -37,19 +96,15 @@ struct GridPoints {
 };
 GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   constexpr double spacing = 0.13;
-  Vector3 low = mesh.points[static_cast<std::size_t>(mesh.triangles.front()[0])];
-  Vector3 high = low;
+  Eigen::AlignedBox3d box;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) {
-      low = low.cwiseMin(mesh.points[static_cast<std::size_t>(v)]);
-      high = high.cwiseMax(mesh.points[static_cast<std::size_t>(v)]);
-    }
+    for (const std::int32_t v : t) box.extend(mesh.points[static_cast<std::size_t>(v)]);
   }
   // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
   constexpr double most_points = 20000.0;
-  const double step = std::max(spacing, portable::cbrt((high - low).prod() / most_points));
-  const Vector3 middle = 0.5 * (low + high);
-  const Eigen::Array3d half = ((high - low) / (2.0 * step)).array().ceil() + 1.0;
+  const double step = std::max(spacing, portable::cbrt(box.sizes().prod() / most_points));
+  const Vector3 middle = 0.5 * (box.min() + box.max());
+  const Eigen::Array3d half = (box.sizes() / (2.0 * step)).array().ceil() + 1.0;
   std::vector<Vector3> all;
   for (double i = -half[0]; i <= half[0]; ++i) {
     for (double j = -half[1]; j <= half[1]; ++j) {

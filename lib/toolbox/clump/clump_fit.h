@@ -27,7 +27,7 @@ struct FittedSpheres {
 /// principal axes. Bodies in other poses then get the same spheres.
 ///
 /// Spheres are added one by one, and all are refined after each (see SphereFit). Each added sphere
-/// touches the surface from within (see medial_spheres) and lowers the energy most. At first a
+/// touches the surface from within and lowers the energy most. At first a
 /// sphere that bulges out costs eight times what a gap costs. Then the least important spheres are
 /// moved to better places as long as that helps, and the weight of eight is reduced to one. With
 /// `options.inside` spheres stay inside. The result has fewer spheres than asked for only if no

@@ -108,20 +108,27 @@ class HeightMap {
 
 }  // namespace
 
-ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution)
-    : reach_(reach) {
+template <class Draw>
+void ContactHeights::draw_poses(const Execution& execution, const Draw& draw) {
   const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
   maps_.resize(turns.size());
   execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t pose = begin; pose < end; ++pose) {
-      HeightMap map(reach, maps_[pose].top, maps_[pose].bottom);
-      std::vector<Vector3> turned;
-      turned.reserve(mesh.points.size());
-      for (const Vector3& p : mesh.points) turned.push_back(turns[pose] * p);
-      for (const auto& [a, b, c] : mesh.triangles) {
-        map.add_triangle(turned[static_cast<std::size_t>(a)], turned[static_cast<std::size_t>(b)],
-                         turned[static_cast<std::size_t>(c)]);
-      }
+      HeightMap map(reach_, maps_[pose].top, maps_[pose].bottom);
+      draw(turns[pose], map);
+    }
+  });
+}
+
+ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Execution& execution)
+    : reach_(reach) {
+  draw_poses(execution, [&](const Eigen::Matrix3d& turn, HeightMap& map) {
+    std::vector<Vector3> turned;
+    turned.reserve(mesh.points.size());
+    for (const Vector3& p : mesh.points) turned.push_back(turn * p);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      map.add_triangle(turned[static_cast<std::size_t>(a)], turned[static_cast<std::size_t>(b)],
+                       turned[static_cast<std::size_t>(c)]);
     }
   });
 }
@@ -129,15 +136,8 @@ ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Exec
 ContactHeights::ContactHeights(const std::vector<Sphere>& spheres, double reach,
                                const Execution& execution)
     : reach_(reach) {
-  const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
-  maps_.resize(turns.size());
-  execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t pose = begin; pose < end; ++pose) {
-      HeightMap map(reach, maps_[pose].top, maps_[pose].bottom);
-      for (const Sphere& sphere : spheres) {
-        map.add_sphere(turns[pose] * sphere.centre, sphere.radius);
-      }
-    }
+  draw_poses(execution, [&](const Eigen::Matrix3d& turn, HeightMap& map) {
+    for (const Sphere& sphere : spheres) map.add_sphere(turn * sphere.centre, sphere.radius);
   });
 }
 

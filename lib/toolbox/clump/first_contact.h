@@ -91,6 +91,8 @@ class ContactHeights {
     std::vector<float> top;
     std::vector<float> bottom;
   };
+  template <class Draw>
+  void draw_poses(const Execution& execution, const Draw& draw);
   /// Returns below and above of a pair.
   std::pair<std::size_t, std::size_t> poses_of(std::size_t pair) const;
   double reach_ = 0.0;
