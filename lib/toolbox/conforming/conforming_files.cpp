@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "toolbox/exchange/tetrahedra_files.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_writers.h"
@@ -15,16 +16,6 @@ namespace {
 
 std::string side_text(std::int32_t grain, const std::vector<Label>& labels) {
   return grain < 0 ? "-1" : std::to_string(labels[index(grain)]);
-}
-
-/// The triangles between the same two grains; the order of Gmsh's surfaces.
-std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> surfaces_of(
-    const ConformingGrains& grains) {
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> surfaces;
-  for (std::size_t t = 0; t < grains.triangles.size(); ++t) {
-    surfaces[{grains.triangles[t].outer, grains.triangles[t].inner}].push_back(t);
-  }
-  return surfaces;
 }
 
 /// Returns the voxels of labels, with one layer of background about them. The memory is 4 bytes per
@@ -82,91 +73,37 @@ ConformingGrains conform_labels(LabelVolume& volume, const std::vector<Label>& l
 }
 
 std::string walls_vtu(const ConformingGrains& grains, const std::vector<Label>& labels) {
-  std::string places;
   std::string corners;
-  std::string ends;
-  std::string types;
   std::string inner;
   std::string outer;
-  for (const Vector3& p : grains.points) places += vector_text(p) + "\n";
-  std::size_t end = 0;
   for (const WallTriangle& t : grains.triangles) {
     for (const std::int32_t corner : t.corners) corners += std::to_string(corner) + " ";
     corners += "\n";
-    ends += std::to_string(end += 3) + "\n";
-    types += "5\n";  // VTK_TRIANGLE
     inner += side_text(t.inner, labels) + "\n";
     outer += side_text(t.outer, labels) + "\n";
   }
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-         "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-         std::to_string(grains.points.size()) + "\" NumberOfCells=\"" +
-         std::to_string(grains.triangles.size()) + "\">\n<CellData>\n" +
-         vtk_data_array("Int64", "Name=\"inner\"", inner) +
-         vtk_data_array("Int64", "Name=\"outer\"", outer) + "</CellData>\n<Points>\n" +
-         vtk_data_array("Float64", "Name=\"Points\" NumberOfComponents=\"3\"", places) +
-         "</Points>\n<Cells>\n" + vtk_data_array("Int64", "Name=\"connectivity\"", corners) +
-         vtk_data_array("Int64", "Name=\"offsets\"", ends) +
-         vtk_data_array("UInt8", "Name=\"types\"", types) +
-         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  constexpr int vtk_triangle = 5;
+  return vtu_of_cells(grains.points, grains.triangles.size(), 3, vtk_triangle, corners,
+                      "<CellData>\n" + vtk_data_array("Int64", "Name=\"inner\"", inner) +
+                          vtk_data_array("Int64", "Name=\"outer\"", outer) + "</CellData>\n");
 }
 
 std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& labels) {
-  const auto surfaces = surfaces_of(grains);
-  Vector3 low = grains.points.front();
-  Vector3 high = low;
-  for (const Vector3& p : grains.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> by_sides;
+  std::vector<Triangle> triangles;
+  for (const WallTriangle& t : grains.triangles) {
+    by_sides[{t.outer, t.inner}].push_back(triangles.size());
+    triangles.push_back(t.corners);
   }
-  const std::string box = " " + vector_text(low) + " " + vector_text(high) + " ";
-  std::vector<std::string> bounds(grains.grains.size());
-  std::vector<std::size_t> bound_counts(grains.grains.size(), 0);
-  std::string names;
-  std::string entities;
-  std::string elements;
-  std::size_t tag = 0;
-  std::size_t element = 0;
-  for (const auto& [sides, triangles] : surfaces) {
-    const std::string number = std::to_string(++tag);
+  std::vector<MeshPart> surfaces;
+  for (auto& [sides, members] : by_sides) {
     const auto& [outer, inner] = sides;
-    names += "2 " + number + " \"" +
-             (outer < 0 ? "surface_" : "wall_" + side_text(outer, labels) + "_") +
-             side_text(inner, labels) + "\"\n";
-    entities += number + box + "1 " + number + " 0\n";
-    bounds[index(inner)] += " " + number;
-    ++bound_counts[index(inner)];
-    if (outer >= 0) {
-      bounds[index(outer)] += " -" + number;
-      ++bound_counts[index(outer)];
-    }
-    elements += "2 " + number + " 2 " + std::to_string(triangles.size()) + "\n";
-    for (const std::size_t t : triangles) {
-      elements += std::to_string(++element);
-      for (const std::int32_t corner : grains.triangles[t].corners) {
-        elements += " " + std::to_string(corner + 1);
-      }
-      elements += "\n";
-    }
+    const std::string name = outer < 0 ? "surface_" : "wall_" + side_text(outer, labels) + "_";
+    surfaces.push_back({name + side_text(inner, labels), std::move(members), {inner, outer}});
   }
-  for (std::size_t g = 0; g < bounds.size(); ++g) {
-    const std::string number = std::to_string(g + 1);
-    names += "3 " + number + " \"grain_" + std::to_string(labels[g]) + "\"\n";
-    entities +=
-        number + box + "1 " + number + " " + std::to_string(bound_counts[g]) + bounds[g] + "\n";
-  }
-  const std::string count = std::to_string(surfaces.size());
-  const std::string nodes = std::to_string(grains.points.size());
-  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" +
-                     std::to_string(surfaces.size() + bounds.size()) + "\n" + names +
-                     "$EndPhysicalNames\n$Entities\n0 0 " + count + " " +
-                     std::to_string(bounds.size()) + "\n" + entities + "$EndEntities\n$Nodes\n1 " +
-                     nodes + " 1 " + nodes + "\n2 1 0 " + nodes + "\n";
-  for (std::size_t v = 1; v <= grains.points.size(); ++v) text += std::to_string(v) + "\n";
-  for (const Vector3& p : grains.points) text += vector_text(p) + "\n";
-  const std::string all = std::to_string(grains.triangles.size());
-  return text + "$EndNodes\n$Elements\n" + count + " " + all + " 1 " + all + "\n" + elements +
-         "$EndElements\n";
+  std::vector<MeshPart> volumes;
+  for (const Label label : labels) volumes.push_back({"grain_" + std::to_string(label), {}});
+  return msh_of_parts(grains.points, triangles, surfaces, {}, volumes);
 }
 
 std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& labels) {
