@@ -14,6 +14,8 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,13 +32,12 @@ constexpr std::size_t block_size = std::size_t{1} << 20;
 
 class FileBytes : public ByteSource {
  public:
-  FileBytes(const std::string& path, std::uint64_t offset)
-      : path_(path), buffer_(block_size), offset_(offset) {
+  FileBytes(const std::string& path, std::uint64_t offset) : path_(path), buffer_(block_size) {
     stream_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
     errno = 0;
     stream_.open(path, std::ios::binary);
     if (!stream_.is_open()) refuse_to_open(path, errno);
-    FileBytes::rewind();
+    stream_.seekg(static_cast<std::streamoff>(offset));
   }
 
   std::size_t read(char* bytes, std::size_t count) override {
@@ -54,16 +55,10 @@ class FileBytes : public ByteSource {
     }
   }
 
-  void rewind() override {
-    stream_.clear();
-    stream_.seekg(static_cast<std::streamoff>(offset_));
-  }
-
  private:
   std::string path_;
   std::vector<char> buffer_;
   std::ifstream stream_;
-  std::uint64_t offset_;
 };
 
 [[noreturn]] void refuse_damaged(const std::string& path) {
@@ -73,113 +68,117 @@ class FileBytes : public ByteSource {
                   "again.");
 }
 
-class InflatedBytes : public ByteSource {
- public:
-  InflatedBytes(std::unique_ptr<ByteSource> packed, std::string path)
-      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
-    constexpr int gzip_or_zlib = 32;  // zlib distinguishes them by their first bytes
-    if (::inflateInit2(&stream_, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
-  }
-  InflatedBytes(const InflatedBytes&) = delete;
-  InflatedBytes& operator=(const InflatedBytes&) = delete;
-  ~InflatedBytes() override { ::inflateEnd(&stream_); }
+/// What a step of unpacking came to.
+enum class Unpacking { GoesOn, HasEnded, IsDamaged };
 
-  std::size_t read(char* bytes, std::size_t count) override {
-    std::size_t filled = 0;
-    while (filled < count) {
-      if (stream_.avail_in == 0) {
-        const std::size_t got = packed_->read(buffer_.data(), buffer_.size());
-        if (got == 0) return filled;
-        stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
-        stream_.avail_in = static_cast<uInt>(got);
-      }
-      const auto wanted = static_cast<uInt>(std::min(count - filled, block_size));
-      stream_.next_out = reinterpret_cast<Bytef*>(bytes + filled);
-      stream_.avail_out = wanted;
-      const int outcome = ::inflate(&stream_, Z_NO_FLUSH);
-      filled += wanted - stream_.avail_out;
-      if (outcome == Z_STREAM_END) {
-        ::inflateReset(&stream_);
-      } else if (outcome != Z_OK && outcome != Z_BUF_ERROR) {
-        refuse_damaged(path_);
-      }
-    }
-    return filled;
-  }
+/// zlib's stream of gzip or zlib, which it distinguishes by their first bytes.
+struct Inflater {
+  z_stream stream = {};
 
-  void rewind() override {
-    packed_->rewind();
-    ::inflateReset(&stream_);
-    stream_.avail_in = 0;
+  Inflater() {
+    constexpr int gzip_or_zlib = 32;
+    if (::inflateInit2(&stream, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
   }
-
- private:
-  std::unique_ptr<ByteSource> packed_;
-  std::string path_;
-  std::vector<char> buffer_;
-  z_stream stream_{};
+  ~Inflater() { ::inflateEnd(&stream); }
+  Unpacking step() {
+    const int outcome = ::inflate(&stream, Z_NO_FLUSH);
+    if (outcome == Z_STREAM_END) return Unpacking::HasEnded;
+    return outcome == Z_OK || outcome == Z_BUF_ERROR ? Unpacking::GoesOn : Unpacking::IsDamaged;
+  }
+  void restart() { ::inflateReset(&stream); }
 };
 
 #ifdef WSCVT_HAS_PACKERS
-class BunzippedBytes : public ByteSource {
- public:
-  BunzippedBytes(std::unique_ptr<ByteSource> packed, std::string path)
-      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
-    begin();
+struct Bunzipper {
+  bz_stream stream = {};
+
+  Bunzipper() { begin(); }
+  ~Bunzipper() { ::BZ2_bzDecompressEnd(&stream); }
+  void begin() {
+    if (::BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) throw std::bad_alloc();
   }
-  BunzippedBytes(const BunzippedBytes&) = delete;
-  BunzippedBytes& operator=(const BunzippedBytes&) = delete;
-  ~BunzippedBytes() override { ::BZ2_bzDecompressEnd(&stream_); }
+  Unpacking step() {
+    const int outcome = ::BZ2_bzDecompress(&stream);
+    if (outcome == BZ_STREAM_END) return Unpacking::HasEnded;
+    return outcome == BZ_OK ? Unpacking::GoesOn : Unpacking::IsDamaged;
+  }
+  void restart() {
+    char* const next = stream.next_in;
+    const unsigned left = stream.avail_in;
+    ::BZ2_bzDecompressEnd(&stream);
+    stream = {};
+    begin();
+    stream.next_in = next;
+    stream.avail_in = left;
+  }
+};
+#endif
+
+/// Consecutive packed streams.
+template <class Unpacker>
+class UnpackedBytes : public ByteSource {
+ public:
+  UnpackedBytes(std::unique_ptr<ByteSource> packed, std::string path)
+      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {}
+  UnpackedBytes(const UnpackedBytes&) = delete;
+  UnpackedBytes& operator=(const UnpackedBytes&) = delete;
 
   std::size_t read(char* bytes, std::size_t count) override {
+    auto& stream = unpacker_.stream;
+    using Byte = std::remove_pointer_t<decltype(stream.next_out)>;
     std::size_t filled = 0;
     while (filled < count) {
-      if (stream_.avail_in == 0) {
+      if (stream.avail_in == 0) {
         const std::size_t got = packed_->read(buffer_.data(), buffer_.size());
         if (got == 0) return filled;
-        stream_.next_in = buffer_.data();
-        stream_.avail_in = static_cast<unsigned>(got);
+        stream.next_in = reinterpret_cast<Byte*>(buffer_.data());
+        stream.avail_in = static_cast<unsigned>(got);
       }
       const auto wanted = static_cast<unsigned>(std::min(count - filled, block_size));
-      stream_.next_out = bytes + filled;
-      stream_.avail_out = wanted;
-      const int outcome = ::BZ2_bzDecompress(&stream_);
-      filled += wanted - stream_.avail_out;
-      if (outcome == BZ_STREAM_END) {
-        restart();
-      } else if (outcome != BZ_OK) {
-        refuse_damaged(path_);
-      }
+      stream.next_out = reinterpret_cast<Byte*>(bytes + filled);
+      stream.avail_out = wanted;
+      const Unpacking outcome = unpacker_.step();
+      filled += wanted - stream.avail_out;
+      if (outcome == Unpacking::HasEnded) unpacker_.restart();
+      if (outcome == Unpacking::IsDamaged) refuse_damaged(path_);
     }
     return filled;
   }
 
-  void rewind() override {
-    packed_->rewind();
-    stream_.avail_in = 0;
-    restart();
-  }
-
  private:
-  void begin() {
-    if (::BZ2_bzDecompressInit(&stream_, 0, 0) != BZ_OK) throw std::bad_alloc();
-  }
-  void restart() {
-    char* const next = stream_.next_in;
-    const unsigned left = stream_.avail_in;
-    ::BZ2_bzDecompressEnd(&stream_);
-    stream_ = {};
-    begin();
-    stream_.next_in = next;
-    stream_.avail_in = left;
-  }
-
   std::unique_ptr<ByteSource> packed_;
   std::string path_;
   std::vector<char> buffer_;
-  bz_stream stream_{};
+  Unpacker unpacker_;
 };
-#endif
+
+/// The characters of a text, one after the other.
+class Characters {
+ public:
+  explicit Characters(std::unique_ptr<ByteSource> text)
+      : text_(std::move(text)), buffer_(block_size / 4) {}
+
+  /// Returns the next character, which stays the next one; -1 at the end.
+  int peek() {
+    if (begin_ == end_) {
+      begin_ = 0;
+      end_ = text_->read(buffer_.data(), buffer_.size());
+      if (end_ == 0) return -1;
+    }
+    return static_cast<unsigned char>(buffer_[begin_]);
+  }
+  int next() {
+    const int c = peek();
+    if (c >= 0) ++begin_;
+    return c;
+  }
+
+ private:
+  std::unique_ptr<ByteSource> text_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0;
+  std::size_t end_ = 0;
+};
 
 /// Six-bit values of the characters; -1 for other characters.
 constexpr std::array<signed char, 256> base64_values() {
@@ -195,107 +194,57 @@ constexpr std::array<signed char, 256> base64_values() {
   return values;
 }
 
-class Base64Bytes : public ByteSource {
+class Base64Bytes : public MadeBytes {
  public:
-  explicit Base64Bytes(std::unique_ptr<ByteSource> text)
-      : text_(std::move(text)), buffer_(block_size / 4) {}
-
-  std::size_t read(char* bytes, std::size_t count) override {
-    static constexpr std::array<signed char, 256> values = base64_values();
-    std::size_t filled = 0;
-    while (filled < count) {
-      if (next_ == made_.size()) {
-        made_.clear();
-        next_ = 0;
-        if (has_ended_) return filled;
-        // Four characters are three bytes; the last group of a text may be shorter, padded with
-        // "=".
-        std::array<int, 4> group{};
-        std::size_t held = 0;
-        std::size_t padding = 0;
-        while (held + padding < 4) {
-          const int c = next_character();
-          if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-          const int value = c < 0 ? -1 : values[static_cast<std::size_t>(c)];
-          if (c == '=') {
-            ++padding;
-          } else if (value >= 0 && padding == 0) {
-            group[held++] = value;
-          } else {
-            has_ended_ = true;
-            break;
-          }
-        }
-        const int word = group[0] << 18 | group[1] << 12 | group[2] << 6 | group[3];
-        for (std::size_t k = 1; k < held; ++k) {
-          made_ += static_cast<char>(word >> (24 - 8 * static_cast<int>(k)) & 0xff);
-        }
-        continue;
-      }
-      bytes[filled++] = made_[next_++];
-    }
-    return filled;
-  }
-
-  void rewind() override {
-    text_->rewind();
-    begin_ = end_ = 0;
-    made_.clear();
-    next_ = 0;
-    has_ended_ = false;
-  }
+  explicit Base64Bytes(std::unique_ptr<ByteSource> text) : text_(std::move(text)) {}
 
  private:
-  /// Returns the next character; -1 at the end.
-  int next_character() {
-    if (begin_ == end_) {
-      begin_ = 0;
-      end_ = text_->read(buffer_.data(), buffer_.size());
-      if (end_ == 0) return -1;
+  /// Four characters are three bytes; the last group of a text may be shorter, padded with "=".
+  bool make(std::vector<char>& made) override {
+    static constexpr std::array<signed char, 256> values = base64_values();
+    if (has_ended_) return false;
+    std::array<int, 4> group{};
+    std::size_t held = 0;
+    std::size_t padding = 0;
+    while (held + padding < 4) {
+      const int c = text_.next();
+      if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
+      const int value = c < 0 ? -1 : values[static_cast<std::size_t>(c)];
+      if (c == '=') {
+        ++padding;
+      } else if (value >= 0 && padding == 0) {
+        group[held++] = value;
+      } else {
+        has_ended_ = true;
+        break;
+      }
     }
-    return static_cast<unsigned char>(buffer_[begin_++]);
+    const int word = group[0] << 18 | group[1] << 12 | group[2] << 6 | group[3];
+    for (std::size_t k = 1; k < held; ++k) {
+      made.push_back(static_cast<char>(word >> (24 - 8 * static_cast<int>(k)) & 0xff));
+    }
+    return true;
   }
 
-  std::unique_ptr<ByteSource> text_;
-  std::vector<char> buffer_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  std::string made_;
-  std::size_t next_ = 0;
+  Characters text_;
   bool has_ended_ = false;
 };
 
-class BytesOfNumbers : public ByteSource {
+class BytesOfNumbers : public MadeBytes {
  public:
   BytesOfNumbers(std::unique_ptr<ByteSource> text, std::string path)
-      : text_(std::move(text)), path_(std::move(path)), buffer_(block_size / 4) {}
-
-  std::size_t read(char* bytes, std::size_t count) override {
-    std::size_t filled = 0;
-    while (filled < count) {
-      if (next_ == made_.size() && !next_number()) break;
-      bytes[filled++] = static_cast<char>(made_[next_++]);
-    }
-    return filled;
-  }
-
-  void rewind() override {
-    text_->rewind();
-    begin_ = end_ = 0;
-    next_ = made_.size();
-    has_ended_ = false;
-  }
+      : text_(std::move(text)), path_(std::move(path)) {}
 
  private:
   static bool is_between(int c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
 
-  bool next_number() {
-    int c = next_character();
-    while (is_between(c)) c = next_character();
+  bool make(std::vector<char>& made) override {
+    while (is_between(text_.peek())) text_.next();
     std::string field;
     constexpr std::size_t longest = 100;
-    for (; c >= 0 && !is_between(c) && field.size() < longest; c = next_character()) {
-      field += static_cast<char>(c);
+    for (int c = text_.peek(); c >= 0 && c != '<' && !is_between(c) && field.size() < longest;
+         c = text_.peek()) {
+      field += static_cast<char>(text_.next());
     }
     if (field.empty()) return false;
     const std::optional<double> number = number_in(field);
@@ -303,34 +252,14 @@ class BytesOfNumbers : public ByteSource {
       throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" has " + in_quotes(field) +
                                               " instead of a voxel. Export it again.");
     }
-    boost::endian::endian_store<double, sizeof(double), boost::endian::order::little>(made_.data(),
-                                                                                      *number);
-    next_ = 0;
+    made.resize(sizeof(double));
+    boost::endian::endian_store<double, sizeof(double), boost::endian::order::little>(
+        reinterpret_cast<unsigned char*>(made.data()), *number);
     return true;
   }
 
-  /// Returns the next character; -1 at the end or at a "<" of XML.
-  int next_character() {
-    if (has_ended_) return -1;
-    if (begin_ == end_) {
-      begin_ = 0;
-      end_ = text_->read(buffer_.data(), buffer_.size());
-    }
-    if (begin_ == end_ || buffer_[begin_] == '<') {
-      has_ended_ = true;
-      return -1;
-    }
-    return static_cast<unsigned char>(buffer_[begin_++]);
-  }
-
-  std::unique_ptr<ByteSource> text_;
+  Characters text_;
   std::string path_;
-  std::vector<char> buffer_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  bool has_ended_ = false;
-  std::array<unsigned char, sizeof(double)> made_{};
-  std::size_t next_ = sizeof(double);
 };
 
 class PickedBytes : public ByteSource {
@@ -356,12 +285,6 @@ class PickedBytes : public ByteSource {
     return filled;
   }
 
-  void rewind() override {
-    bytes_->rewind();
-    left_ = 0;
-    is_first_ = true;
-  }
-
  private:
   std::unique_ptr<ByteSource> bytes_;
   std::uint64_t block_;
@@ -369,26 +292,6 @@ class PickedBytes : public ByteSource {
   std::uint64_t place_;
   std::uint64_t left_ = 0;  ///< in the block
   bool is_first_ = true;
-};
-
-class BytesBehind : public ByteSource {
- public:
-  BytesBehind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset)
-      : bytes_(std::move(bytes)), offset_(offset) {
-    bytes_->rewind();
-    bytes_->skip(offset_);
-  }
-
-  std::size_t read(char* bytes, std::size_t count) override { return bytes_->read(bytes, count); }
-  void skip(std::uint64_t count) override { bytes_->skip(count); }
-  void rewind() override {
-    bytes_->rewind();
-    bytes_->skip(offset_);
-  }
-
- private:
-  std::unique_ptr<ByteSource> bytes_;
-  std::uint64_t offset_;
 };
 
 class JoinedBytes : public ByteSource {
@@ -419,12 +322,6 @@ class JoinedBytes : public ByteSource {
     return filled;
   }
 
-  void rewind() override {
-    bytes_.reset();
-    next_ = 0;
-    left_ = 0;
-  }
-
  private:
   std::vector<std::string> paths_;
   std::uint64_t part_;
@@ -435,6 +332,22 @@ class JoinedBytes : public ByteSource {
 };
 
 }  // namespace
+
+std::size_t MadeBytes::read(char* bytes, std::size_t count) {
+  std::size_t filled = 0;
+  while (filled < count) {
+    if (next_ == made_.size()) {
+      made_.clear();
+      next_ = 0;
+      if (!make(made_)) break;
+    }
+    const std::size_t part = std::min(count - filled, made_.size() - next_);
+    std::copy_n(made_.data() + next_, part, bytes + filled);
+    next_ += part;
+    filled += part;
+  }
+  return filled;
+}
 
 void ByteSource::skip(std::uint64_t count) {
   std::array<char, 4096> passed{};
@@ -450,12 +363,12 @@ std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t of
 }
 
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
-  return std::make_unique<InflatedBytes>(std::move(packed), std::move(path));
+  return std::make_unique<UnpackedBytes<Inflater>>(std::move(packed), std::move(path));
 }
 
 std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
 #ifdef WSCVT_HAS_PACKERS
-  return std::make_unique<BunzippedBytes>(std::move(packed), std::move(path));
+  return std::make_unique<UnpackedBytes<Bunzipper>>(std::move(packed), std::move(path));
 #else
   (void)packed;
   throw Error(ErrorCode::InputOutput,
@@ -475,10 +388,6 @@ std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, s
 std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block,
                                          std::uint64_t count, std::uint64_t place) {
   return std::make_unique<PickedBytes>(std::move(bytes), block, count, place);
-}
-
-std::unique_ptr<ByteSource> bytes_behind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset) {
-  return std::make_unique<BytesBehind>(std::move(bytes), offset);
 }
 
 std::unique_ptr<ByteSource> joined_bytes(

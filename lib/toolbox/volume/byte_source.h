@@ -10,9 +10,8 @@
 
 namespace wscvt {
 
-// Bytes of a volume in their order, readable repeatedly from the beginning. A volume is larger than
-// the memory, and packed data can be read in no other order.
-
+/// Bytes of a volume in their order. A volume is larger than the memory, and packed data can be
+/// read in no other order: to read them again, they are opened again.
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
@@ -22,10 +21,23 @@ class ByteSource {
 
   /// Skips bytes; fewer at the end.
   virtual void skip(std::uint64_t count);
-
-  /// Goes back to the first byte.
-  virtual void rewind() = 0;
 };
+
+/// Bytes that are made from others, some at a time.
+class MadeBytes : public ByteSource {
+ public:
+  std::size_t read(char* bytes, std::size_t count) override;
+
+ private:
+  /// Puts the next bytes into `made`, which is empty. Returns false at the end.
+  virtual bool make(std::vector<char>& made) = 0;
+
+  std::vector<char> made_;
+  std::size_t next_ = 0;  ///< position in made_
+};
+
+/// Opens bytes at their beginning.
+using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
 
 /// Returns the bytes of a file from `offset` on. Throws Error(InputOutput) if it cannot be opened.
 std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t offset);
@@ -49,9 +61,6 @@ std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, s
 /// Returns block number `place` of every `count` blocks of `block` bytes.
 std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block,
                                          std::uint64_t count, std::uint64_t place);
-
-/// Returns the bytes after the first `offset` bytes.
-std::unique_ptr<ByteSource> bytes_behind(std::unique_ptr<ByteSource> bytes, std::uint64_t offset);
 
 /// Returns the first `part` bytes of each of `paths`, one after the other; `open` returns the bytes
 /// of one file. Reading throws Error(InputOutput), naming the file, if a file has fewer.

@@ -109,14 +109,18 @@ void find_volumes(hid_t group, const std::string& path, int depth, std::size_t& 
   }
 }
 
-/// Refuses voxels that other files hold: a file could show any other file of the machine.
-void refuse_foreign_voxels(hid_t data_set, const std::string& name, const std::string& path) {
+/// Whether other files hold the voxels: a file could show any other file of the machine.
+bool has_foreign_voxels(hid_t data_set) {
   const Handle made(H5Dget_create_plist(data_set), H5Pclose);
-  const bool is_external = H5Pget_external_count(made) > 0;
-  if (!is_external && H5Pget_layout(made) != H5D_VIRTUAL) return;
+  return H5Pget_external_count(made) > 0 || H5Pget_layout(made) == H5D_VIRTUAL;
+}
+
+void refuse_foreign_voxels(hid_t data_set, const std::string& name, const std::string& path) {
+  if (!has_foreign_voxels(data_set)) return;
+  const Handle made(H5Dget_create_plist(data_set), H5Pclose);
   refuse_volume(path,
                 std::string("is an HDF5 file whose voxels are in other files, by ") +
-                    (is_external ? "external storage" : "a virtual data set") +
+                    (H5Pget_external_count(made) > 0 ? "external storage" : "a virtual data set") +
                     ". Copy the voxels into one file, in its folder by python3 -c 'import h5py; "
                     "h5py.File(\"one.h5\", \"w\")[\"labels\"] = h5py.File(" +
                     in_quotes(std::filesystem::path(path).filename().string()) + ")[" +
@@ -171,30 +175,35 @@ std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions,
   return roles;
 }
 
-/// Returns three numbers of a data set or an attribute; nothing without them.
-std::optional<Vector3> three_numbers(hid_t group, const std::string& data_set,
-                                     const char* attribute) {
-  double values[3] = {};
-  if (H5Lexists(group, data_set.substr(0, data_set.find('/')).c_str(), H5P_DEFAULT) > 0 &&
-      H5Lexists(group, data_set.c_str(), H5P_DEFAULT) > 0) {
-    const Handle found(H5Dopen2(group, data_set.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!found.is_there()) return std::nullopt;
-    const Handle made(H5Dget_create_plist(found), H5Pclose);
-    const Handle space(H5Dget_space(found), H5Sclose);
-    if (H5Pget_external_count(made) > 0 || H5Pget_layout(made) == H5D_VIRTUAL ||
-        H5Sget_simple_extent_npoints(space) != 3 ||
-        H5Dread(found, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
-      return std::nullopt;
-    }
-    return Vector3(values[0], values[1], values[2]);
-  }
-  if (H5Aexists(group, attribute) <= 0) return std::nullopt;
-  const Handle found(H5Aopen(group, attribute, H5P_DEFAULT), H5Aclose);
+/// Returns the three numbers of an attribute; nothing without them.
+std::optional<Vector3> three_numbers(hid_t object, const char* attribute) {
+  if (H5Aexists(object, attribute) <= 0) return std::nullopt;
+  const Handle found(H5Aopen(object, attribute, H5P_DEFAULT), H5Aclose);
   const Handle space(H5Aget_space(found), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 3 || H5Aread(found, H5T_NATIVE_DOUBLE, values) < 0) {
+  Vector3 values;
+  if (H5Sget_simple_extent_npoints(space) != 3 ||
+      H5Aread(found, H5T_NATIVE_DOUBLE, values.data()) < 0) {
     return std::nullopt;
   }
-  return Vector3(values[0], values[1], values[2]);
+  return values;
+}
+
+/// Returns the three numbers of a data set or, without it, of an attribute.
+std::optional<Vector3> three_numbers(hid_t group, const std::string& data_set,
+                                     const char* attribute) {
+  if (H5Lexists(group, data_set.substr(0, data_set.find('/')).c_str(), H5P_DEFAULT) <= 0 ||
+      H5Lexists(group, data_set.c_str(), H5P_DEFAULT) <= 0) {
+    return three_numbers(group, attribute);
+  }
+  const Handle found(H5Dopen2(group, data_set.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!found.is_there() || has_foreign_voxels(found)) return std::nullopt;
+  const Handle space(H5Dget_space(found), H5Sclose);
+  Vector3 values;
+  if (H5Sget_simple_extent_npoints(space) != 3 ||
+      H5Dread(found, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
+    return std::nullopt;
+  }
+  return values;
 }
 
 /// Reads the geometry that DREAM.3D keeps in a group above the data set: version 6 in
@@ -225,20 +234,6 @@ void read_dream3d(hid_t file, const std::string& name, const std::string& path, 
 
 bool is_of_matlab(hid_t data_set) { return H5Aexists(data_set, "MATLAB_class") > 0; }
 
-/// Returns the voxel size along x, y and z, from an attribute of Fiji and ilastik: z, y, x in
-/// micrometres.
-Vector3 voxel_size_of(hid_t data_set) {
-  Vector3 size = Vector3::Zero();
-  constexpr const char* name = "element_size_um";
-  if (H5Aexists(data_set, name) <= 0) return size;
-  const Handle attribute(H5Aopen(data_set, name, H5P_DEFAULT), H5Aclose);
-  const Handle space(H5Aget_space(attribute), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 3) return size;
-  double values[3] = {};
-  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values) < 0) return size;
-  return {values[2], values[1], values[0]};
-}
-
 ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path) {
   const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   refuse_foreign_voxels(data_set, name, path);
@@ -260,7 +255,9 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
     shape.roles[last - 2] = 2;
   }
   if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size(), path);
-  shape.voxel_size = voxel_size_of(data_set);
+  // Of Fiji and ilastik: z, y, x in micrometres.
+  const std::optional<Vector3> size_um = three_numbers(data_set, "element_size_um");
+  if (size_um) shape.voxel_size = size_um->reverse();
   shape.unit = "um";
   shape.size_source = "element_size_um";
   if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, path, shape);

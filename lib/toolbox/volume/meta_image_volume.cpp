@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MetaImage as ITK defines it: https://docs.itk.org/en/latest/learn/metaio.html
-#include <array>
 #include <utility>
 
 #include "toolbox/volume/header_file.h"
@@ -93,15 +92,7 @@ MetaHeader read_meta_header(HeaderFile& file) {
 
 /// Returns the dimensions in the file's order: channels, x, y, z, and frames as a fourth dimension.
 std::vector<VolumeAxis> axes_of(const MetaHeader& header, const std::string& path) {
-  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is. Export it again.");
-  if (header.dimensions != static_cast<std::int64_t>(header.sizes.size())) {
-    refuse_volume(path, "says that it has " + std::to_string(header.dimensions) +
-                            " dimensions, but has sizes of " + std::to_string(header.sizes.size()) +
-                            ". Export it again.");
-  }
-  if (header.dimensions == 2) {
-    refuse_volume(path, "has two dimensions: it is one image, but grains need a stack of images.");
-  }
+  check_dimensions(header.dimensions, header.sizes.size(), path);
   if (header.dimensions != 3 && header.dimensions != 4) {
     refuse_volume(
         path, "has " + std::to_string(header.dimensions) + " dimensions. Save only one volume.");
@@ -150,39 +141,6 @@ void set_geometry(const MetaHeader& header, const VolumeChoice& choice, const st
               vector_of(header.origin, header, Vector3::Zero(), path), choice, path);
 }
 
-std::vector<std::string> files_of(const MetaHeader& header, const std::string& path) {
-  const std::string lower = lower_case(header.data_file);
-  if (lower == "local") return {path};
-  if (lower.rfind("list", 0) == 0) {
-    if (header.list.empty()) refuse_volume(path, "has an empty list of files. Export it again.");
-    std::vector<std::string> files;
-    for (const std::string& name : header.list) files.push_back(voxel_file_beside(path, name));
-    return files;
-  }
-  if (header.data_file.find('%') == std::string::npos) {
-    return {voxel_file_beside(path, header.data_file)};
-  }
-  // "s_%03d.raw 1 24 1": first, last and step, as MetaIO reads them; the last two are optional.
-  TextFields fields(header.data_file);
-  const std::string pattern(fields.next());
-  std::array<std::int64_t, 3> numbers = {1, header.sizes.back(), 1};
-  bool has_last = false;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::string_view field = fields.next();
-    if (field.empty()) break;
-    const std::optional<std::int64_t> value = whole_number_in(field);
-    if (!value) {
-      refuse_volume(path,
-                    "has " + in_quotes(header.data_file) +
-                        " as its files. Write a pattern, and its first number, last and step.");
-    }
-    numbers[k] = *value;
-    has_last = has_last || k == 1;
-  }
-  if (!has_last) numbers[1] = numbers[0] + header.sizes.back() - 1;
-  return voxel_files_beside(path, pattern, numbers[0], numbers[1], numbers[2]);
-}
-
 }  // namespace
 
 std::unique_ptr<LabelVolume> open_meta_image(const std::string& path, const VolumeChoice& choice) {
@@ -198,7 +156,10 @@ std::unique_ptr<LabelVolume> open_meta_image(const std::string& path, const Volu
   const bool is_local = lower_case(header.data_file) == "local";
   VoxelData data;
   data.picks = picks_of(axes, choice, path);
-  data.paths = files_of(header, path);
+  // MetaIO needs no last number and no step.
+  data.paths = is_local ? std::vector<std::string>{path}
+                        : voxel_files_beside(path, header.data_file, header.list,
+                                             {{1, header.sizes.back(), 1}});
   data.offset = is_local ? file.offset() : 0;
   if (header.is_packed) data.packing = Packing::Deflate;
   if (header.is_text) data.packing = Packing::Text;

@@ -135,16 +135,18 @@ void set_geometry(const nifti_image& image, const VolumeChoice& choice, const st
 
 std::unique_ptr<LabelVolume> volume_of_voxels(const VolumeGeometry& geometry, const VoxelType& type,
                                               const VoxelData& data) {
-  const std::string& path = data.paths.front();
+  const std::string path = data.paths.front();
   if (ending_of(path) != ".gz") return volume_of_files(geometry, type, data);
   // The offset is in the unpacked bytes.
-  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
-  check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);
+  check_voxel_bytes(stored_bytes(geometry.counts, type, data.picks), file_size(path),
+                    Packing::Deflate, path);
   return volume_of_bytes(
-      geometry, type,
-      picked_voxels(bytes_behind(inflated_bytes(file_bytes(path, 0), path), data.offset),
-                    data.picks, static_cast<std::uint64_t>(type.bytes)),
+      geometry, type, data.picks,
+      [path, offset = data.offset] {
+        std::unique_ptr<ByteSource> bytes = inflated_bytes(file_bytes(path, 0), path);
+        bytes->skip(offset);
+        return bytes;
+      },
       path);
 }
 

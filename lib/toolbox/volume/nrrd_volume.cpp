@@ -254,34 +254,6 @@ std::int64_t layer_of(const std::vector<VolumeAxis>& axes, const VolumeChoice& c
   return 0;
 }
 
-std::vector<std::string> files_of(const NrrdHeader& header, const std::string& path) {
-  if (header.data_file.empty()) return {path};
-  if (!header.list.empty()) {
-    std::vector<std::string> files;
-    for (const std::string& name : header.list) files.push_back(voxel_file_beside(path, name));
-    return files;
-  }
-  if (lower_case(header.data_file).rfind("list", 0) == 0) {
-    refuse_volume(path, "has an empty list of files. Export it again.");
-  }
-  if (header.data_file.find('%') == std::string::npos) {
-    return {voxel_file_beside(path, header.data_file)};
-  }
-  TextFields fields(header.data_file);
-  const std::string pattern(fields.next());
-  std::array<std::int64_t, 3> numbers{};  // first, last, step
-  for (std::int64_t& number : numbers) {
-    const std::optional<std::int64_t> value = whole_number_in(fields.next());
-    if (!value) {
-      refuse_volume(path,
-                    "has " + in_quotes(header.data_file) +
-                        " as its files. Write a pattern, and its first number, last and step.");
-    }
-    number = *value;
-  }
-  return voxel_files_beside(path, pattern, numbers[0], numbers[1], numbers[2]);
-}
-
 Packing packing_of(const std::string& encoding, const std::string& path) {
   if (encoding == "raw") return Packing::None;
   if (encoding == "gzip" || encoding == "gz") return Packing::Deflate;
@@ -296,15 +268,7 @@ Packing packing_of(const std::string& encoding, const std::string& path) {
 std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoice& choice) {
   HeaderFile file(path);
   const NrrdHeader header = read_nrrd_header(file);
-  if (header.sizes.empty()) refuse_volume(path, "does not say how large it is. Export it again.");
-  if (header.dimension != static_cast<std::int64_t>(header.sizes.size())) {
-    refuse_volume(path, "says that it has " + std::to_string(header.dimension) +
-                            " dimensions, but has sizes of " + std::to_string(header.sizes.size()) +
-                            ". Export it again.");
-  }
-  if (header.sizes.size() == 2) {
-    refuse_volume(path, "has two dimensions: it is one image, but grains need a stack of images.");
-  }
+  check_dimensions(header.dimension, header.sizes.size(), path);
   refuse_array_choice(choice, path);
   const std::vector<VolumeAxis> axes = axes_of(header, path);
   VolumeGeometry geometry;
@@ -320,7 +284,9 @@ std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoi
                   "into its header.");
   }
   data.picks = picks_of(axes, choice, path);
-  data.paths = files_of(header, path);
+  data.paths = header.data_file.empty()
+                   ? std::vector<std::string>{path}
+                   : voxel_files_beside(path, header.data_file, header.list, std::nullopt);
   data.offset = header.data_file.empty() ? file.offset() : 0;
   const bool is_packed = data.packing != Packing::None;
   data.at_end = header.byte_skip == -1 && header.line_skip == 0 && !is_packed;

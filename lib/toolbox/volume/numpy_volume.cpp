@@ -10,6 +10,7 @@
 #include <array>
 #include <cstring>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "toolbox/volume/axis_order.h"
@@ -100,30 +101,16 @@ NumpyHeader read_header(ByteSource& bytes, std::uint64_t& offset, const std::str
 
 /// Reads a type, such as "<u2", "|b1", ">f8".
 VoxelType numpy_type_of(const std::string& text, const std::string& path) {
-  VoxelType type;
   const bool has_order = !text.empty() && std::strchr("<>|=", text.front()) != nullptr;
   const std::string kind = text.substr(has_order ? 1 : 0);
-  type.big_endian = has_order && text.front() == '>';
-  static const std::array<std::pair<const char*, const char*>, 11> names = {{{"b1", "uint8"},
-                                                                             {"u1", "uint8"},
-                                                                             {"u2", "uint16"},
-                                                                             {"u4", "uint32"},
-                                                                             {"u8", "uint64"},
-                                                                             {"i1", "int8"},
-                                                                             {"i2", "int16"},
-                                                                             {"i4", "int32"},
-                                                                             {"i8", "int64"},
-                                                                             {"f4", "float32"},
-                                                                             {"f8", "float64"}}};
-  for (const auto& [numpy, name] : names) {
-    if (kind != numpy) continue;
-    const bool big_endian = type.big_endian;
-    type = voxel_type_of(name, path);
-    type.big_endian = big_endian;
-    return type;
+  const bool is_whole = kind.size() == 2 && (kind[0] == 'u' || kind[0] == 'i') &&
+                        std::string_view("1248").find(kind[1]) != std::string_view::npos;
+  const bool is_float = kind == "f4" || kind == "f8";
+  if (!is_whole && !is_float && kind != "b1") {
+    refuse_volume(path, "has voxels of NumPy's type " + in_quotes(text) +
+                            ", but labels are whole numbers. Save it as uint16 or uint32.");
   }
-  refuse_volume(path, "has voxels of NumPy's type " + in_quotes(text) +
-                          ", but labels are whole numbers. Save it as uint16 or uint32.");
+  return {kind[1] - '0', is_float || kind[0] == 'i', is_float, has_order && text.front() == '>'};
 }
 
 #ifdef WSCVT_HAS_PACKERS
@@ -132,7 +119,12 @@ class ZipBytes : public ByteSource {
  public:
   ZipBytes(std::string path, std::string member)
       : path_(std::move(path)), member_(std::move(member)) {
-    rewind();
+    zip_ = unzOpen64(path_.c_str());
+    if (zip_ == nullptr || unzLocateFile(zip_, member_.c_str(), 1) != UNZ_OK ||
+        unzOpenCurrentFile(zip_) != UNZ_OK) {
+      close();
+      refuse_volume(path_, "cannot be unpacked. Copy it again, or save it again.");
+    }
   }
   ZipBytes(const ZipBytes&) = delete;
   ZipBytes& operator=(const ZipBytes&) = delete;
@@ -154,16 +146,6 @@ class ZipBytes : public ByteSource {
     return filled;
   }
 
-  void rewind() override {
-    close();
-    zip_ = unzOpen64(path_.c_str());
-    if (zip_ == nullptr || unzLocateFile(zip_, member_.c_str(), 1) != UNZ_OK ||
-        unzOpenCurrentFile(zip_) != UNZ_OK) {
-      close();
-      refuse_volume(path_, "cannot be unpacked. Copy it again, or save it again.");
-    }
-  }
-
  private:
   [[noreturn]] void refuse_damaged() const {
     refuse_volume(path_, "is damaged in " + in_quotes(member_) + ". Copy it again.");
@@ -173,7 +155,6 @@ class ZipBytes : public ByteSource {
     if (zip_ == nullptr) return;
     unzCloseCurrentFile(zip_);
     unzClose(zip_);
-    zip_ = nullptr;
   }
 
   std::string path_;
@@ -213,7 +194,6 @@ class MemoryBytes : public ByteSource {
     next_ += filled;
     return filled;
   }
-  void rewind() override { next_ = 0; }
 
  private:
   const char* bytes_;
@@ -254,12 +234,12 @@ std::unique_ptr<LabelVolume> volume_of_array(const VolumeArray& array, const Vol
                                              const std::string& name) {
   const ShapedVolume volume = shaped({array.type, false, array.counts}, choice, name);
   const VoxelType type = numpy_type_of(array.type, name);
-  const auto voxel = static_cast<std::uint64_t>(type.bytes);
-  std::uint64_t size = voxel;
+  auto size = static_cast<std::uint64_t>(type.bytes);
   for (const std::int64_t count : array.counts) size *= static_cast<std::uint64_t>(count);
   return volume_of_bytes(
-      volume.geometry, type,
-      picked_voxels(std::make_unique<MemoryBytes>(array.numbers, size), volume.picks, voxel), name);
+      volume.geometry, type, volume.picks,
+      [numbers = array.numbers, size] { return std::make_unique<MemoryBytes>(numbers, size); },
+      name);
 }
 
 #ifdef WSCVT_HAS_PACKERS
@@ -272,19 +252,22 @@ std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoic
   }
   if (names.empty()) refuse_volume(path, "has no array. Save it again.");
   const auto& [member, size] = members[chosen_array(names, choice, path)];
-  auto bytes = std::make_unique<ZipBytes>(path, member);
   std::uint64_t offset = 0;
-  const NumpyHeader header = read_header(*bytes, offset, path);
+  ZipBytes head(path, member);
+  const NumpyHeader header = read_header(head, offset, path);
   const ShapedVolume volume = shaped(header, choice, path);
   const VoxelType type = numpy_type_of(header.type, path);
-  std::uint64_t wanted = voxel_bytes(volume.geometry.counts, type);
-  for (const BlockPick& pick : volume.picks) wanted *= static_cast<std::uint64_t>(pick.count);
+  const std::uint64_t wanted = stored_bytes(volume.geometry.counts, type, volume.picks);
   check_voxel_bytes(wanted, size - std::min(size, offset), Packing::None, path);
   check_voxel_bytes(wanted, file_size(path), Packing::Deflate, path);
-  return volume_of_bytes(volume.geometry, type,
-                         picked_voxels(bytes_behind(std::move(bytes), offset), volume.picks,
-                                       static_cast<std::uint64_t>(type.bytes)),
-                         path);
+  return volume_of_bytes(
+      volume.geometry, type, volume.picks,
+      [path, name = member, offset] {
+        auto bytes = std::make_unique<ZipBytes>(path, name);
+        bytes->skip(offset);
+        return bytes;
+      },
+      path);
 }
 #else
 std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice&) {

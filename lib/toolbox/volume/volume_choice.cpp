@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "toolbox/volume/volume_error.h"
+#include "wscvt/base/error.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -44,6 +44,10 @@ std::string whole_in_quotes(const std::string& name) {
 }
 
 }  // namespace
+
+void refuse_volume(const std::string& path, const Sentence& what) {
+  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
+}
 
 std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
                           const std::string& path) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -22,6 +23,9 @@ struct VolumeChoice {
   std::optional<std::int64_t> frame;    ///< a point in time, from 1
   std::string array;  ///< name of an array, path of a data set; empty: the only one
 };
+
+/// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
+[[noreturn]] void refuse_volume(const std::string& path, const Sentence& what);
 
 /// Kind of a dimension of a file.
 enum class AxisKind { Space, Channel, Frame };

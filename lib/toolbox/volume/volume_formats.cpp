@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "toolbox/volume/volume_error.h"
+#include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

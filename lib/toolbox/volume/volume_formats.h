@@ -6,6 +6,7 @@
 
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/error.h"
 
 namespace wscvt {
 

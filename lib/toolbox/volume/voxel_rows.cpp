@@ -177,14 +177,21 @@ void load_row(const char* bytes, const VoxelType& type, LabelCoding& coding,
 
 class VolumeOfBytes : public LabelVolume {
  public:
-  VolumeOfBytes(const VolumeGeometry& geometry, const VoxelType& type,
-                std::unique_ptr<ByteSource> bytes, std::string path)
-      : LabelVolume(geometry), type_(type), bytes_(std::move(bytes)), path_(std::move(path)) {}
+  VolumeOfBytes(const VolumeGeometry& geometry, const VoxelType& type, std::vector<BlockPick> picks,
+                OpenBytes open, std::string path)
+      : LabelVolume(geometry),
+        type_(type),
+        picks_(std::move(picks)),
+        open_(std::move(open)),
+        path_(std::move(path)) {
+    begin();
+  }
 
   const std::vector<Label>& next_row() override {
     if (!coding().as_grey && !coding().no_labels.empty()) {
       throw Error(ErrorCode::InputOutput, coding().no_labels);
     }
+    is_at_begin_ = false;
     // Allocated here, after the checks that detect a false count in a packed file.
     const auto count = static_cast<std::size_t>(geometry().counts[0]);
     row_.resize(count);
@@ -201,17 +208,30 @@ class VolumeOfBytes : public LabelVolume {
   }
 
   void rewind() override {
-    bytes_->rewind();
-    next_ = 0;
+    if (!is_at_begin_) begin();
   }
 
  private:
+  void begin() {
+    bytes_ = open_();
+    for (const BlockPick& pick : picks_) {
+      bytes_ = picked_bytes(std::move(bytes_), static_cast<std::uint64_t>(pick.block * type_.bytes),
+                            static_cast<std::uint64_t>(pick.count),
+                            static_cast<std::uint64_t>(pick.place));
+    }
+    next_ = 0;
+    is_at_begin_ = true;
+  }
+
   VoxelType type_;
-  std::unique_ptr<ByteSource> bytes_;
+  std::vector<BlockPick> picks_;
+  OpenBytes open_;
   std::string path_;
+  std::unique_ptr<ByteSource> bytes_;
   std::vector<char> packed_;
   std::vector<Label> row_;
   std::int64_t next_ = 0;  ///< row
+  bool is_at_begin_ = true;
 };
 
 /// Whether bytes begin as gzip or zlib streams do.
@@ -224,19 +244,11 @@ bool begins_packed(const std::string& path, std::uint64_t offset) {
 
 }  // namespace
 
-std::optional<VoxelType> known_voxel_type(std::string_view name) {
+VoxelType voxel_type_of(std::string_view name, const std::string& path) {
   const std::string lower = lower_case(name);
   for (const TypeNames& row : type_names()) {
-    for (const std::string_view known : row.names) {
-      if (lower == known) return row.type;
-    }
+    if (std::find(row.names.begin(), row.names.end(), lower) != row.names.end()) return row.type;
   }
-  return std::nullopt;
-}
-
-VoxelType voxel_type_of(std::string_view name, const std::string& path) {
-  const std::optional<VoxelType> type = known_voxel_type(name);
-  if (type) return *type;
   refuse_volume(path, "holds voxels of type " + in_quotes(name) +
                           ", but labels are whole numbers. Save it as 8, 16 or 32 bits without a "
                           "sign.");
@@ -274,9 +286,11 @@ VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::s
   return result;
 }
 
-std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type) {
+std::uint64_t stored_bytes(const VoxelCounts& counts, const VoxelType& type,
+                           const std::vector<BlockPick>& picks) {
   auto bytes = static_cast<std::uint64_t>(type.bytes);
   for (const std::int32_t count : counts) bytes *= static_cast<std::uint64_t>(count);
+  for (const BlockPick& pick : picks) bytes *= static_cast<std::uint64_t>(pick.count);
   return bytes;
 }
 
@@ -292,28 +306,16 @@ void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing
 }
 
 std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, const VoxelType& type,
-                                             std::unique_ptr<ByteSource> bytes,
+                                             const std::vector<BlockPick>& picks, OpenBytes open,
                                              const std::string& path) {
-  return std::make_unique<VolumeOfBytes>(geometry, type, std::move(bytes), path);
-}
-
-std::unique_ptr<ByteSource> picked_voxels(std::unique_ptr<ByteSource> bytes,
-                                          const std::vector<BlockPick>& picks,
-                                          std::uint64_t voxel) {
-  for (const BlockPick& pick : picks) {
-    bytes = picked_bytes(std::move(bytes), static_cast<std::uint64_t>(pick.block) * voxel,
-                         static_cast<std::uint64_t>(pick.count),
-                         static_cast<std::uint64_t>(pick.place));
-  }
-  return bytes;
+  return std::make_unique<VolumeOfBytes>(geometry, type, picks, std::move(open), path);
 }
 
 std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, VoxelType type,
                                              const VoxelData& data) {
   Packing packing = data.packing;
   if (packing == Packing::Text) type = {sizeof(double), true, true, false};
-  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  for (const BlockPick& pick : data.picks) wanted *= static_cast<std::uint64_t>(pick.count);
+  const std::uint64_t wanted = stored_bytes(geometry.counts, type, data.picks);
   const std::uint64_t part = wanted / data.paths.size();
   if (part * data.paths.size() != wanted) {
     refuse_volume(
@@ -342,7 +344,6 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
     }
     offsets.push_back(offset);
   }
-  const std::string first = data.paths.front();
   const auto open = [packing](const std::string& path, std::uint64_t offset) {
     std::unique_ptr<ByteSource> bytes = file_bytes(path, offset);
     if (packing == Packing::Deflate) return inflated_bytes(std::move(bytes), path);
@@ -350,16 +351,14 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
     if (packing == Packing::Text) return bytes_of_numbers(std::move(bytes), path);
     return bytes;
   };
-  std::unique_ptr<ByteSource> bytes;
-  if (data.paths.size() == 1) {
-    bytes = open(first, offsets.front());
-  } else {
-    bytes = joined_bytes(
-        data.paths, part,
-        [open, offset = offsets.front()](const std::string& path) { return open(path, offset); });
-  }
-  bytes = picked_voxels(std::move(bytes), data.picks, static_cast<std::uint64_t>(type.bytes));
-  std::unique_ptr<LabelVolume> volume = volume_of_bytes(geometry, type, std::move(bytes), first);
+  std::unique_ptr<LabelVolume> volume = volume_of_bytes(
+      geometry, type, data.picks,
+      [open, part, paths = data.paths, offset = offsets.front()] {
+        if (paths.size() == 1) return open(paths.front(), offset);
+        return joined_bytes(paths, part,
+                            [=](const std::string& path) { return open(path, offset); });
+      },
+      data.paths.front());
   if (!note.empty()) volume->add_note(note);
   return volume;
 }
@@ -379,9 +378,35 @@ std::string voxel_file_beside(const std::string& header, const std::string& name
              : (std::filesystem::path(header).parent_path() / path).lexically_normal().string();
 }
 
-std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& pattern,
-                                            std::int64_t first, std::int64_t last,
-                                            std::int64_t step) {
+std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& named,
+                                            const std::vector<std::string>& list,
+                                            std::optional<std::array<std::int64_t, 3>> numbers) {
+  if (lower_case(named).rfind("list", 0) == 0) {
+    if (list.empty()) refuse_volume(header, "has an empty list of files. Export it again.");
+    std::vector<std::string> files;
+    for (const std::string& name : list) files.push_back(voxel_file_beside(header, name));
+    return files;
+  }
+  if (named.find('%') == std::string::npos) return {voxel_file_beside(header, named)};
+  TextFields fields(named);
+  const std::string pattern(fields.next());
+  const bool may_be_left_out = numbers.has_value();
+  auto [first, last, step] = numbers.value_or(std::array<std::int64_t, 3>{});
+  const std::int64_t count = last - first;
+  bool has_last = false;
+  for (std::int64_t* const number : {&first, &last, &step}) {
+    const std::string_view field = fields.next();
+    if (field.empty() && may_be_left_out) break;
+    const std::optional<std::int64_t> value = whole_number_in(field);
+    if (!value) {
+      refuse_volume(header,
+                    "has " + in_quotes(named) +
+                        " as its files. Write a pattern, and its first number, last and step.");
+    }
+    *number = *value;
+    has_last = has_last || number == &last;
+  }
+  if (may_be_left_out && !has_last) last = first + count;
   const auto refuse_pattern = [&](const std::string& why) {
     refuse_volume(header, "names its files by the pattern " + in_quotes(pattern) + ", " + why +
                               ". Write it as name_%03d.raw FIRST LAST STEP.");
@@ -409,6 +434,19 @@ std::vector<std::string> voxel_files_beside(const std::string& header, const std
         voxel_file_beside(header, pattern.substr(0, percent) + number + pattern.substr(end + 1)));
   }
   return files;
+}
+
+void check_dimensions(std::int64_t said, std::size_t sizes, const std::string& header) {
+  if (sizes == 0) refuse_volume(header, "does not say how large it is. Export it again.");
+  if (said != static_cast<std::int64_t>(sizes)) {
+    refuse_volume(header, "says that it has " + std::to_string(said) +
+                              " dimensions, but has sizes of " + std::to_string(sizes) +
+                              ". Export it again.");
+  }
+  if (sizes == 2) {
+    refuse_volume(header,
+                  "has two dimensions: it is one image, but grains need a stack of images.");
+  }
 }
 
 }  // namespace wscvt

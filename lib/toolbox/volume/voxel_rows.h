@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,7 +11,6 @@
 #include "toolbox/volume/byte_source.h"
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
-#include "toolbox/volume/volume_error.h"
 
 namespace wscvt {
 
@@ -22,12 +22,9 @@ struct VoxelType {
   bool big_endian = false;
 };
 
-/// Returns the type for a name in NRRD, MetaImage, VTK or NumPy ("unsigned short", "MET_USHORT",
-/// "UInt16", "uint16", "float", ...), in either case; its byte order is little-endian. Empty for
-/// other names.
-std::optional<VoxelType> known_voxel_type(std::string_view name);
-
-/// Returns this type. Throws Error(InputOutput), naming the file `path`, for other names.
+/// Returns the type for a name in NRRD, MetaImage, VTK or a raw file's description ("unsigned
+/// short", "MET_USHORT", "UInt16", "float", ...), in either case; its byte order is little-endian.
+/// Throws Error(InputOutput), naming the file `path`, for other names.
 VoxelType voxel_type_of(std::string_view name, const std::string& path);
 
 /// Position of a row of voxels, for messages.
@@ -51,8 +48,9 @@ void check_colours_equal(const char* colours, std::size_t size, const std::strin
 /// is below 1 or above a million.
 VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::string& path);
 
-/// Returns the number of bytes of all voxels of a volume.
-std::uint64_t voxel_bytes(const VoxelCounts& counts, const VoxelType& type);
+/// Returns the number of bytes of the voxels from which a volume is selected.
+std::uint64_t stored_bytes(const VoxelCounts& counts, const VoxelType& type,
+                           const std::vector<BlockPick>& picks);
 
 /// Compression or encoding of voxels.
 enum class Packing {
@@ -84,24 +82,26 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
 void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing,
                        const std::string& path);
 
-/// Opens a format that is a header and voxels in their order. `path` is for messages.
+/// Opens a format that is a header and voxels in their order. `open` returns the voxels' bytes, of
+/// which `picks` select the volume. `path` is for messages.
 std::unique_ptr<LabelVolume> volume_of_bytes(const VolumeGeometry& geometry, const VoxelType& type,
-                                             std::unique_ptr<ByteSource> bytes,
+                                             const std::vector<BlockPick>& picks, OpenBytes open,
                                              const std::string& path);
-
-/// Returns the selection from `bytes`, with `voxel` bytes per voxel.
-std::unique_ptr<ByteSource> picked_voxels(std::unique_ptr<ByteSource> bytes,
-                                          const std::vector<BlockPick>& picks, std::uint64_t voxel);
 
 /// Returns the file beside a header that the header names for its voxels. Throws Error(InputOutput)
 /// for an empty name.
 std::string voxel_file_beside(const std::string& header, const std::string& name);
 
-/// Returns the files beside a header for a pattern of C, "s_%03d.raw", with its first number, last
-/// number and step. Throws Error(InputOutput) for a pattern without exactly one whole number, and
-/// for more files than a volume has slices.
-std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& pattern,
-                                            std::int64_t first, std::int64_t last,
-                                            std::int64_t step);
+/// Returns the files that a header names for its voxels: one file, those of `list` if `named` is
+/// "LIST", or those of a pattern of C with its first number, last number and step, "s_%03d.raw 1 24
+/// 1". `numbers`: what counts if numbers are left out; empty: none may be. Throws
+/// Error(InputOutput) for a pattern without exactly one whole number, and for more files than a
+/// volume has slices.
+std::vector<std::string> voxel_files_beside(const std::string& header, const std::string& named,
+                                            const std::vector<std::string>& list,
+                                            std::optional<std::array<std::int64_t, 3>> numbers);
+
+/// Throws Error(InputOutput) unless a header has as many sizes as it says, and more than two.
+void check_dimensions(std::int64_t said, std::size_t sizes, const std::string& header);
 
 }  // namespace wscvt

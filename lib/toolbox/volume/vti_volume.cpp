@@ -140,7 +140,7 @@ class VtiParser {
 enum class Packer { None, ZLib, Lz4 };
 
 /// Bytes after the lengths that VTK writes before an array.
-class VtkArrayBytes : public ByteSource {
+class VtkArrayBytes : public MadeBytes {
  public:
   VtkArrayBytes(std::unique_ptr<ByteSource> bytes, std::uint64_t wanted, const VoxelType& length,
                 Packer packer, std::string path)
@@ -153,27 +153,7 @@ class VtkArrayBytes : public ByteSource {
   }
 
   std::size_t read(char* bytes, std::size_t count) override {
-    if (packer_ == Packer::None) return bytes_->read(bytes, count);
-    std::size_t filled = 0;
-    while (filled < count) {
-      if (next_ == made_.size()) {
-        if (next_block_ == packed_sizes_.size()) break;
-        unpack_block();
-      }
-      const std::size_t part = std::min(count - filled, made_.size() - next_);
-      std::copy_n(made_.data() + next_, part, bytes + filled);
-      next_ += part;
-      filled += part;
-    }
-    return filled;
-  }
-
-  void rewind() override {
-    bytes_->rewind();
-    made_.clear();
-    next_ = 0;
-    next_block_ = 0;
-    read_lengths();
+    return packer_ == Packer::None ? bytes_->read(bytes, count) : MadeBytes::read(bytes, count);
   }
 
  private:
@@ -201,11 +181,12 @@ class VtkArrayBytes : public ByteSource {
         (last_ == 0 ? blocks * block_ : (blocks - 1) * block_ + last_) != wanted_) {
       refuse();
     }
-    packed_sizes_.clear();
     for (std::uint64_t k = 0; k < blocks; ++k) packed_sizes_.push_back(next_length());
   }
 
-  void unpack_block() {
+  /// Unpacks a block.
+  bool make(std::vector<char>& made) override {
+    if (next_block_ == packed_sizes_.size()) return false;
     const bool is_last = next_block_ + 1 == packed_sizes_.size();
     const std::uint64_t size = is_last && last_ != 0 ? last_ : block_;
     const std::uint64_t packed_size = packed_sizes_[next_block_++];
@@ -215,25 +196,25 @@ class VtkArrayBytes : public ByteSource {
     if (packed_size > most_block || size > most_block || size > packed_size * most_packed) refuse();
     packed_.resize(packed_size);
     if (bytes_->read(packed_.data(), packed_.size()) < packed_.size()) refuse();
-    made_.resize(size);
-    next_ = 0;
+    made.resize(size);
     bool is_whole = false;
     if (packer_ == Packer::ZLib) {
-      uLongf made = size;
-      is_whole = ::uncompress(reinterpret_cast<Bytef*>(made_.data()), &made,
+      uLongf count = size;
+      is_whole = ::uncompress(reinterpret_cast<Bytef*>(made.data()), &count,
                               reinterpret_cast<const Bytef*>(packed_.data()),
                               static_cast<uLong>(packed_.size())) == Z_OK &&
-                 made == size;
+                 count == size;
     } else {
       is_whole =
-          ::LZ4_decompress_safe(packed_.data(), made_.data(), static_cast<int>(packed_.size()),
-                                static_cast<int>(made_.size())) == static_cast<int>(size);
+          ::LZ4_decompress_safe(packed_.data(), made.data(), static_cast<int>(packed_.size()),
+                                static_cast<int>(made.size())) == static_cast<int>(size);
     }
     if (!is_whole) {
       refuse_volume(path_,
                     "holds packed voxels that are damaged. Copy the file again, or export "
                     "it again.");
     }
+    return true;
   }
 
   [[noreturn]] void refuse() const {
@@ -251,8 +232,6 @@ class VtkArrayBytes : public ByteSource {
   std::vector<std::uint64_t> packed_sizes_;
   std::size_t next_block_ = 0;
   std::vector<char> packed_;
-  std::vector<char> made_;
-  std::size_t next_ = 0;  ///< position in made_
 };
 
 std::string value_of(const Attributes& attributes, const std::string& key,
@@ -373,30 +352,31 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
     begin = begin_of_appended(path, header.appendix) + static_cast<std::uint64_t>(*offset);
   }
   const std::uint64_t left = size - std::min(size, begin);
-  std::uint64_t wanted = voxel_bytes(geometry.counts, type);
-  for (const BlockPick& pick : picks) wanted *= static_cast<std::uint64_t>(pick.count);
-  std::unique_ptr<ByteSource> bytes = file_bytes(path, begin);
+  std::uint64_t wanted = stored_bytes(geometry.counts, type, picks);
+  OpenBytes open;
   if (format == "ascii") {
     wanted = wanted / static_cast<std::uint64_t>(type.bytes) * sizeof(double);
     check_voxel_bytes(wanted, left, Packing::Text, path);
     type = {sizeof(double), true, true, false};
-    bytes = bytes_of_numbers(std::move(bytes), path);
+    open = [=] { return bytes_of_numbers(file_bytes(path, begin), path); };
   } else if (is_appended || format == "binary") {
     const std::string packer_name = value_of(header.file, "compressor", "");
     const bool is_text = !is_appended || value_of(header.appended, "encoding", "base64") != "raw";
     const Packer packer = packer_of(packer_name, path);
     check_voxel_bytes(wanted, is_text ? left / 4 * 3 : left,
                       packer == Packer::None ? Packing::None : Packing::Deflate, path);
-    if (is_text) bytes = base64_bytes(std::move(bytes));
     VoxelType length{4, false, false, type.big_endian};
     if (value_of(header.file, "header_type", "UInt32") == "UInt64") length.bytes = 8;
-    bytes = std::make_unique<VtkArrayBytes>(std::move(bytes), wanted, length, packer, path);
+    open = [=] {
+      std::unique_ptr<ByteSource> bytes = file_bytes(path, begin);
+      if (is_text) bytes = base64_bytes(std::move(bytes));
+      return std::make_unique<VtkArrayBytes>(std::move(bytes), wanted, length, packer, path);
+    };
   } else {
     refuse_volume(
         path, "has its voxels as " + in_quotes(format) + ". Save it ascii, binary or appended.");
   }
-  bytes = picked_voxels(std::move(bytes), picks, static_cast<std::uint64_t>(type.bytes));
-  return volume_of_bytes(geometry, type, std::move(bytes), path);
+  return volume_of_bytes(geometry, type, picks, std::move(open), path);
 }
 
 #else
