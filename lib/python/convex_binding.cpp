@@ -10,7 +10,7 @@
 
 #include "bindings.h"
 #include "conversion.h"
-#include "toolbox/convex/parts.h"
+#include "toolbox/convex/convex_parts.h"
 #include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/parts_report.h"
 #include "work.h"

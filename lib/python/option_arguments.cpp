@@ -11,7 +11,7 @@
 #include "bindings.h"
 #include "conversion.h"
 #include "toolbox/clump/clump_options.h"
-#include "toolbox/convex/convex_options.h"
+#include "toolbox/convex/convex_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/remesh/remesh_options.h"
 

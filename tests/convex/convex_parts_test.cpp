@@ -12,7 +12,6 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "toolbox/convex/convex_body.h"
-#include "toolbox/convex/parts.h"
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/numbers.h"

@@ -18,7 +18,6 @@
 #include "support/page_tables.h"
 #include "support/volume_folder.h"
 #include "toolbox/fabric/fabric_files.h"
-#include "toolbox/fabric/fabric_page.h"
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/numbers.h"

@@ -12,8 +12,6 @@
 #include "support/expect_error.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
-#include "toolbox/fragment/face_triangles.h"
-#include "toolbox/fragment/fragment_sites.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/triangle_geometry.h"
 

@@ -14,7 +14,7 @@
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
-#include "toolbox/fragment/fragment_sites.h"
+#include "toolbox/fragment/cell_complex.h"
 #include "toolbox/sample/given_sizes.h"
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/half_edges.h"

@@ -13,7 +13,6 @@
 
 #include "support/expect_error.h"
 #include "support/made_volume.h"
-#include "toolbox/volume/smoothed_surface.h"
 #include "wscvt/base/mesh.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"

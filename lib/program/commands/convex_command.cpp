@@ -14,7 +14,7 @@
 #include "program/call/help_text.h"
 #include "program/commands/commands.h"
 #include "program/terminal/work.h"
-#include "toolbox/convex/parts.h"
+#include "toolbox/convex/convex_parts.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/job/engine_jobs.h"
 #include "toolbox/report/parts_report.h"

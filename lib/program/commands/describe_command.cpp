@@ -18,7 +18,6 @@
 #include "toolbox/exchange/clump_files.h"
 #include "toolbox/fabric/fabric.h"
 #include "toolbox/fabric/fabric_files.h"
-#include "toolbox/fabric/fabric_page.h"
 #include "toolbox/job/job_folder.h"
 #include "toolbox/report/parts_report.h"
 #include "toolbox/resolution/resolution.h"

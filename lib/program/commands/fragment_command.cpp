@@ -20,7 +20,7 @@
 #include "toolbox/conforming/conforming_grains.h"
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
-#include "toolbox/fragment/fragment_options.h"
+#include "toolbox/fragment/fragments.h"
 #include "toolbox/job/job_folder.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/grain_grower.h"

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "toolbox/conforming/wall_remesh.h"
-#include "toolbox/conforming/wall_repair.h"
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"

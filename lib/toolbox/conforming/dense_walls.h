@@ -5,13 +5,32 @@
 #include <cstdint>
 #include <vector>
 
-#include "toolbox/conforming/voxel_walls.h"
+#include "toolbox/conforming/grain_voxels.h"
 #include "toolbox/fragment/common_walls.h"
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
+
+/// A face of voxels between two grains, or a grain and the background: four vertices,
+/// counter-clockwise seen from `outer`.
+struct WallQuad {
+  std::array<std::int32_t, 4> corners;
+  std::int32_t inner;  ///< the larger grain
+  std::int32_t outer;  ///< the smaller grain; -1: background
+};
+
+/// The faces between all grains, with common vertices.
+struct VoxelWalls {
+  std::vector<VoxelCounts> corners;  ///< of the lattice, at the vertices
+  std::vector<WallQuad> quads;
+};
+
+/// Makes the walls. Grains that touch only in an edge or a corner, with background between them,
+/// are apart: each has its own vertices there. If the grains are well-composed, each of them is
+/// closed and manifold.
+VoxelWalls voxel_walls(const GrainVoxels& voxels);
 
 /// The place of a vertex among the walls.
 enum class WallPlace : std::uint8_t {

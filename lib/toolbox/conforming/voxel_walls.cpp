@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/conforming/voxel_walls.h"
-
 #include <algorithm>
 #include <limits>
 
+#include "toolbox/conforming/dense_walls.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {

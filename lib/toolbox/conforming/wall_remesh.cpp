@@ -130,12 +130,12 @@ void WallRemesher::split_long() {
   }
 }
 
-void WallRemesher::flip_all() {
+void WallRemesher::flip_all(bool only_flat) {
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
       const std::int32_t a = mesh_.triangles[t].corners[k];
       const std::int32_t b = mesh_.triangles[t].corners[following(k)];
-      if (mesh_.flip(a, b)) break;
+      if ((!only_flat || mesh_.is_flat(a, b)) && mesh_.flip(a, b)) break;
     }
   }
 }
@@ -236,18 +236,8 @@ void WallRemesher::improve(int rounds, const Execution& execution) {
   for (int round = 0; round < rounds; ++round) {
     split_long();
     collapse_short(unlimited);
-    flip_all();
+    flip_all(false);
     relax(2, execution);
-  }
-}
-
-void WallRemesher::flip_flat() {
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
-      const std::int32_t a = mesh_.triangles[t].corners[k];
-      const std::int32_t b = mesh_.triangles[t].corners[following(k)];
-      if (mesh_.is_flat(a, b) && mesh_.flip(a, b)) break;
-    }
   }
 }
 
@@ -257,8 +247,8 @@ void WallRemesher::refine(const Execution& execution) {
   // the parts of a long triangle are long as well.
   for (factor_ = 32.0; factor_ >= 1.0; factor_ *= 0.5) {
     split_long();
-    flip_flat();
-    flip_flat();
+    flip_all(true);
+    flip_all(true);
   }
   factor_ = 1.0;
   constexpr int rounds = 4;
@@ -267,7 +257,7 @@ void WallRemesher::refine(const Execution& execution) {
     collapse_short(unlimited);
     mesh_.compact();
     split_long();
-    flip_flat();
+    flip_all(true);
   }
 }
 
@@ -295,7 +285,7 @@ void WallRemesher::run(const std::vector<double>& least, int nodes, const Execut
     execution.report(0.3 * level / (level + 3.0), "Coarsening the walls");
     ++level;
     collapse_short(most);
-    flip_all();
+    flip_all(false);
     mesh_.compact();
     relax(1, execution);
   }
@@ -313,7 +303,7 @@ void WallRemesher::run(const std::vector<double>& least, int nodes, const Execut
   improve(2, execution);
   collapse_narrow();
   for (int round = 0; round < 3; ++round) {
-    flip_all();
+    flip_all(false);
     relax(2, execution);
   }
   mesh_.compact();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "toolbox/conforming/dense_walls.h"
 #include "toolbox/conforming/wall_mesh.h"
 #include "wscvt/base/execution.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 
@@ -39,8 +41,7 @@ class WallRemesher {
   /// Joins the ends of an edge, see WallMesh::collapse. Returns whether it did.
   bool join(std::int32_t a, std::int32_t b, double longest, double evenness);
   void split_long();
-  void flip_all();
-  void flip_flat();
+  void flip_all(bool only_flat);
   void relax(int times, const Execution& execution);
   Vector3 relaxed(std::int32_t v) const;
   WallPoint placed(std::int32_t v, const Vector3& target) const;
@@ -53,5 +54,18 @@ class WallRemesher {
   double factor_ = 1.0;  ///< of all edge lengths, so that their mean is right
   WallMesh mesh_;
 };
+
+/// What finish_walls leaves.
+struct FinishedWalls {
+  std::vector<TrianglePair> pairs;  ///< triangles that intersect
+  double volume_error = 0.0;        ///< largest, relative
+};
+
+/// Parts intersecting triangles and gives every grain its volume. Sheets of free surface move away
+/// from each other, other nodes to the middle of their neighbours. Then the volumes are restored,
+/// with smaller moves of the nodes that would make triangles intersect. `dense_edge`: of
+/// the dense walls, such as a voxel's; length.
+FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double dense_edge,
+                           const Execution& execution);
 
 }  // namespace wscvt

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/conforming/wall_repair.h"
-
 #include <algorithm>
 
+#include "toolbox/conforming/wall_remesh.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -36,9 +35,7 @@ class WallPairs {
     return self_intersections_of(asked, mesh_, execution.part(0.0, 0.0));
   }
 
-  std::vector<std::int32_t> vertices_of(const std::vector<TrianglePair>& pairs) const {
-    return wscvt::vertices_of(pairs, mesh_.triangles);
-  }
+  const std::vector<Triangle>& triangles() const { return mesh_.triangles; }
 
  private:
   IndexedMesh mesh_;
@@ -107,7 +104,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
-    for (const std::int32_t v : walls.vertices_of(pairs)) is_near[index(v)] = 1;
+    for (const std::int32_t v : vertices_of(pairs, walls.triangles())) is_near[index(v)] = 1;
     part_pairs(mesh, pairs, step * dense_edge);
     pairs = walls.near(mesh.points, is_near, execution);
   }
@@ -122,7 +119,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
     if (k > 0) result.pairs = walls.near(mesh.points, is_near, execution);
     if (k == 0 || result.pairs.empty()) result.pairs = walls.all(mesh.points, execution);
     if (result.pairs.empty()) break;
-    for (const std::int32_t v : walls.vertices_of(result.pairs)) {
+    for (const std::int32_t v : vertices_of(result.pairs, walls.triangles())) {
       shares[index(v)] *= 0.1;
       mesh.visit_triangles(v, [&](std::size_t t) {
         for (const std::int32_t c : mesh.triangles[t].corners) {

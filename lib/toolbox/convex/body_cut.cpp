@@ -2,12 +2,11 @@
 #include "toolbox/convex/body_cut.h"
 
 #include <algorithm>
-#include <numeric>
+#include <boost/pending/disjoint_sets.hpp>
 #include <unordered_map>
 #include <utility>
 
 #include "toolbox/convex/face_cut.h"
-#include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -33,47 +32,32 @@ struct CutSolid::Side {
 };
 
 CutSolid::CutSolid(const IndexedMesh& mesh) : points_(mesh.points) {
-  std::unordered_map<std::uint64_t, int> sides;
+  require_closed(mesh.triangles);
   for (const Triangle& t : mesh.triangles) {
     const Vector3 normal =
         doubled_area_normal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     const std::size_t first = edges_.size();
-    for (std::size_t k = 0; k < 3; ++k) {
-      edges_.push_back({t[k], t[(k + 1) % 3]});
-      ++sides[edge_key(t[k], t[(k + 1) % 3])];
-    }
+    for (std::size_t k = 0; k < 3; ++k) edges_.push_back({t[k], t[(k + 1) % 3]});
     faces_.push_back({normal.normalized(), first, edges_.size(), false});
-  }
-  for (const auto& [a, b] : edges_) {
-    const auto back = sides.find(edge_key(b, a));
-    if (back == sides.end() || back->second != 1) {
-      refuse(
-          "The mesh is not closed, or an edge has more than two triangles. Repair the mesh first.");
-    }
   }
   volume_ = volume_of(mesh, Execution(1));
 }
 
 void CutSolid::append_pieces(const std::vector<Vector3>& points, const Side& side,
                              double least_volume, std::vector<CutSolid>& pieces) {
-  std::vector<std::int32_t> parent(points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  boost::disjoint_sets_with_storage<> linked(points.size());
   for (const Face& face : side.faces) {
     const std::int32_t start = side.edges[face.first][0];
     for (std::size_t e = face.first; e < face.last; ++e) {
       // A face with holes connects the parts around it.
-      parent[root(side.edges[e][0])] = root(face.is_cap ? start : side.edges[e][1]);
+      linked.union_set(side.edges[e][0], face.is_cap ? start : side.edges[e][1]);
     }
   }
   std::vector<std::int32_t> piece_of(points.size(), -1);
   std::vector<std::int32_t> number(points.size(), -1);
   std::vector<CutSolid> found;
   for (const Face& face : side.faces) {
-    std::int32_t& piece = piece_of[root(side.edges[face.first][0])];
+    std::int32_t& piece = piece_of[linked.find_set(side.edges[face.first][0])];
     if (piece < 0) {
       piece = static_cast<std::int32_t>(found.size());
       found.push_back(CutSolid());

@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "toolbox/convex/convex_body.h"
@@ -197,20 +197,15 @@ ConvexParts convex_parts(const IndexedMesh& mesh, const IndexedMesh& scan,
 }
 
 ConvexParts parts_of(const IndexedMesh& mesh) {
-  std::vector<std::int32_t> parent(mesh.points.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](std::int32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  boost::disjoint_sets_with_storage<> linked(mesh.points.size());
   for (const auto& [a, b, c] : mesh.triangles) {
-    parent[root(a)] = root(b);
-    parent[root(b)] = root(c);
+    linked.union_set(a, b);
+    linked.union_set(b, c);
   }
   std::vector<std::int32_t> number(mesh.points.size(), -1);
   std::vector<std::vector<Vector3>> points;
   for (const Triangle& t : mesh.triangles) {
-    const std::int32_t start = root(t[0]);
+    const std::size_t start = linked.find_set(t[0]);
     if (number[start] < 0) {
       number[start] = static_cast<std::int32_t>(points.size());
       points.emplace_back();

@@ -1,14 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "toolbox/convex/convex_options.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/option.h"
+#include "wscvt/measures/descriptors.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt {
+
+/// Options of the division of a grain into convex parts.
+struct ConvexOptions {
+  int parts = 8;           ///< max. number
+  int faces = 255;         ///< max. number per part's hull; PhysX allows no more
+  double tolerance = 0.5;  ///< max. distance of a hull that is not cut, % of the equivalent radius
+};
+
+/// Default number of nodes of the remesh on which the cuts are chosen. Fewer nodes take less time.
+inline constexpr int convex_node_count = 500;
+
+inline constexpr NumberOption<int> convex_parts_option = {
+    "count", "number of parts", 1, 1000, Ends::Both, "at most this many convex parts"};
+inline constexpr NumberOption<int> convex_faces_option = {
+    "faces", "number of faces", 4, 100000, Ends::Both, "at most this many triangles per part"};
+inline constexpr NumberOption<double> convex_tolerance_option = {
+    "max-error",
+    "allowed error",
+    0.01,
+    50.0,
+    Ends::Both,
+    "fewer parts if no hull is farther than this from the grain, in % of the equivalent radius"};
+
+/// Throws Error(InvalidInput), with the range, for options out of range.
+void check_options(const ConvexOptions& options);
 
 /// Closed convex meshes whose union represents a grain.
 using ConvexParts = std::vector<IndexedMesh>;
@@ -62,5 +90,23 @@ PartsMeasures measure_parts(const ConvexParts& parts, const IndexedMesh& grain,
 
 /// Returns the parts as one mesh, in their order.
 IndexedMesh joined(const ConvexParts& parts);
+
+/// Convex parts and their grain, in the scan's units and coordinates.
+struct PartsResult {
+  ConvexParts parts;
+  PartsMeasures measures;
+  ShapeDescriptors scan;           ///< of the grain: the mass properties that the parts should have
+  IndexedMesh grain;               ///< the repaired scan: closed, outward
+  std::vector<Sentence> warnings;  ///< sentences for the user
+};
+
+/// Makes convex parts of a scan, which is repaired as in remesh(). convex_parts chooses the cuts on
+/// a remesh with `remesh_options`, for which convex_node_count nodes are enough, and makes the
+/// parts of the scan. Then all parts are scaled together about the grain's centroid, so that their
+/// union has the grain's volume: a packing has the right porosity, and parts begin on both sides of
+/// the grain's surface instead of outside of it. measure_parts measures their errors. The result
+/// does not depend on the number of threads. Throws Error as remesh and convex_parts do.
+PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const ConvexOptions& options,
+                       const Execution& execution = Execution());
 
 }  // namespace wscvt

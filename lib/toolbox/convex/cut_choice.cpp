@@ -38,7 +38,7 @@ double HullCost::distance(const ConvexBody& body) const {
       }
     }
   }
-  return grid_->distance_beyond(0.0, farthest);
+  return grid_->distance_outside(farthest);
 }
 
 double HullCost::operator()(const ConvexBody& body, double volume) const {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "wscvt/base/error.h"
+
 namespace wscvt {
 
 namespace {
@@ -30,6 +32,19 @@ bool loop_holds(const std::vector<Vector3>& points, const FaceEdges& loop, const
 }
 
 }  // namespace
+
+void require_closed(const std::vector<Triangle>& triangles) {
+  std::unordered_map<std::uint64_t, int> sides;
+  for (const auto& [a, b, c] : triangles) {
+    for (const std::uint64_t key : {edge_key(a, b), edge_key(b, c), edge_key(c, a)}) ++sides[key];
+  }
+  for (const auto& [key, count] : sides) {
+    const auto back = sides.find(key << 32U | key >> 32U);
+    if (back != sides.end() && back->second == 1) continue;
+    refuse(
+        "The mesh is not closed, or an edge has more than two triangles. Repair the mesh first.");
+  }
+}
 
 Vector3 doubled_area(const std::vector<Vector3>& points, const FaceEdge* first,
                      const FaceEdge* last) {

@@ -23,6 +23,10 @@ inline std::uint64_t edge_key(std::int32_t a, std::int32_t b) {
          static_cast<std::uint32_t>(b);
 }
 
+/// Throws Error(InvalidInput) unless each edge of the triangles has two of them, one in each
+/// direction.
+void require_closed(const std::vector<Triangle>& triangles);
+
 /// Returns twice the area of closed loops, along their normal. There must be an edge.
 Vector3 doubled_area(const std::vector<Vector3>& points, const FaceEdge* first,
                      const FaceEdge* last);

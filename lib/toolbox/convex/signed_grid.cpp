@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/convex/signed_grid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -8,17 +9,14 @@ namespace wscvt {
 
 SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& execution)
     : distance_(mesh, execution) {
-  Vector3 low = mesh.points.front();
-  Vector3 high = low;
-  for (const Vector3& p : mesh.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  spacing_ = (high - low).maxCoeff() / cells;
-  origin_ = low - Vector3::Constant(spacing_);
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.points) box.extend(p);
+  const Vector3 size = box.sizes();
+  spacing_ = size.maxCoeff() / cells;
+  origin_ = box.min() - Vector3::Constant(spacing_);
   for (int axis = 0; axis < 3; ++axis) {
     counts_[static_cast<std::size_t>(axis)] =
-        static_cast<int>(std::ceil((high - low)[axis] / spacing_)) + 3;
+        static_cast<int>(std::ceil(size[axis] / spacing_)) + 3;
   }
   values_.resize(index(0, 0, counts_[2]));
   const auto rows = static_cast<std::size_t>(counts_[1] * counts_[2]);
@@ -43,9 +41,9 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
   });
 }
 
-double SignedGrid::distance_beyond(double least, const Vector3& point) const {
+double SignedGrid::distance_outside(const Vector3& point) const {
   // If the grid takes a point for an outer one by its error, the distance is as small.
-  return at(point) > least ? std::max(least, distance_.distance(point)) : least;
+  return at(point) > 0.0 ? distance_.distance(point) : 0.0;
 }
 
 double SignedGrid::at(const Vector3& point) const {

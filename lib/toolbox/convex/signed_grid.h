@@ -23,9 +23,8 @@ class SignedGrid {
   /// nearest point.
   double at(const Vector3& point) const;
 
-  /// Returns the larger of `least` and the distance of a point outside the mesh; length. Computes
-  /// the exact distance if the grid's is larger than `least`.
-  double distance_beyond(double least, const Vector3& point) const;
+  /// Returns the exact distance of a point outside the mesh by the grid; 0 inside; length.
+  double distance_outside(const Vector3& point) const;
 
   double spacing() const { return spacing_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/exchange/distance_grid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
@@ -31,23 +32,16 @@ void append(std::string& text, double value) {
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-/// Bounding box of a mesh's points.
-struct Box {
-  Vector3 lowest;
-  Vector3 highest;
-};
+using Box = Eigen::AlignedBox3d;
 
 Box box_of(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
     throw Error(ErrorCode::InvalidInput,
                 "The mesh has no faces, so there is no inside. Give a closed triangle mesh.");
   }
-  Box box{mesh.points[mesh.triangles.front()[0]], mesh.points[mesh.triangles.front()[0]]};
+  Box box;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) {
-      box.lowest = box.lowest.cwiseMin(mesh.points[v]);
-      box.highest = box.highest.cwiseMax(mesh.points[v]);
-    }
+    for (const std::int32_t v : t) box.extend(mesh.points[v]);
   }
   return box;
 }
@@ -59,8 +53,8 @@ struct Span {
 };
 
 Span span_of(const Box& box, int axis, const GridOptions& options) {
-  return {std::floor(box.lowest[axis] / options.spacing) - margin,
-          std::ceil(box.highest[axis] / options.spacing) + margin};
+  return {std::floor(box.min()[axis] / options.spacing) - margin,
+          std::ceil(box.max()[axis] / options.spacing) + margin};
 }
 
 double point_count(const Box& box, const GridOptions& options) {

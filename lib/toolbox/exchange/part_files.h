@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "toolbox/convex/convex_parts.h"
-#include "toolbox/convex/parts.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/option.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/fabric/edge_width.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
+#include "toolbox/fabric/contact_lines.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 

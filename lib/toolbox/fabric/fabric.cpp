@@ -8,7 +8,6 @@
 #include <string>
 
 #include "toolbox/fabric/contact_lines.h"
-#include "toolbox/fabric/edge_width.h"
 #include "toolbox/volume/label_census.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "toolbox/fabric/fabric.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 
@@ -33,5 +34,10 @@ std::string contacts_vtp(const Fabric& fabric);
 
 /// Returns a few lines: grains, pairs, contacts, coordination, fabric tensor, the scan's blur.
 std::vector<std::string> fabric_lines(const Fabric& fabric);
+
+/// Returns an HTML page: the lines of fabric_lines, rose diagrams of the normals and of the branch
+/// vectors in the three planes of the axes, the numbers of contacts of the grains, the tensors, the
+/// areas before and after the correction.
+std::string fabric_html(const Fabric& fabric, const ReportOrigin& origin);
 
 }  // namespace wscvt

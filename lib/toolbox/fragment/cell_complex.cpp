@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/fragment/cell_complex.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,29 +18,18 @@ namespace wscvt {
 CellComplex::CellComplex(const IndexedMesh& solid, const std::vector<CellSite>& sites,
                          const Execution& execution)
     : points_(solid.points) {
-  std::unordered_map<std::uint64_t, int> sides;
-  Vector3 low = points_.at(0);
-  Vector3 high = low;
+  require_closed(solid.triangles);
+  Eigen::AlignedBox3d box;
   for (const Triangle& t : solid.triangles) {
     Face face;
     face.normal = doubled_area_normal(points_[t[0]], points_[t[1]], points_[t[2]]).normalized();
     for (std::size_t k = 0; k < 3; ++k) {
       face.edges.push_back({t[k], t[(k + 1) % 3]});
-      ++sides[edge_key(t[k], t[(k + 1) % 3])];
-      low = low.cwiseMin(points_[t[k]]);
-      high = high.cwiseMax(points_[t[k]]);
+      box.extend(points_[t[k]]);
     }
     faces_.push_back(std::move(face));
   }
-  for (const Face& face : faces_) {
-    for (const auto& [a, b] : face.edges) {
-      const auto back = sides.find(edge_key(b, a));
-      if (back != sides.end() && back->second == 1) continue;
-      refuse(
-          "The mesh is not closed, or an edge has more than two triangles. Repair the mesh first.");
-    }
-  }
-  on_plane_ = 1e-12 * (high - low).squaredNorm();
+  on_plane_ = 1e-12 * box.sizes().squaredNorm();
   for (std::size_t k = 0; k < sites.size(); ++k) {
     execution.report(static_cast<double>(k) / static_cast<double>(sites.size()),
                      "Cutting into fragments");

@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <unordered_set>
 #include <vector>
 
 #include "toolbox/convex/face_cut.h"
+#include "toolbox/fragment/fragment_options.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 
@@ -77,5 +80,34 @@ class CellComplex {
   std::vector<Cell> cells_;
   double on_plane_ = 0.0;  ///< length^2; differences of distances up to this count as none
 };
+
+/// Returns about `count` points evenly in a closed mesh: on lines along z, whose distance is the
+/// points' own. Deterministic.
+std::vector<Vector3> points_in(const IndexedMesh& mesh, double volume, std::size_t count);
+
+/// Places the sites of the fragments' cells by Lloyd's steps on points_in: each site moves to the
+/// centroid of its cell (Du, Faber and Gunzburger 1999, "Centroidal Voronoi tessellations", SIAM
+/// Rev. 41, 637-676). Works in the grain's principal frame, so the sites turn with the grain. With
+/// `volumes` the cells are power cells, whose weights grow where the volume is too small; with
+/// `near` the points count as (d + r / 5)^-5, d their distance from the nearest of `near` and r
+/// the equivalent radius, which makes the size of a cell proportional to d + r / 5 (Gersho's
+/// conjecture). `shape` is of the mesh, which is closed and outward. The result does not depend on
+/// the number of threads. Throws Error(NumericalFailure) for a mesh too thin for the points.
+std::vector<CellSite> fragment_sites(const IndexedMesh& mesh, const ShapeDescriptors& shape,
+                                     const FragmentOptions& options, const Execution& execution);
+
+/// Returns a number that only the edge between two points has, in either direction.
+inline std::uint64_t undirected_key(std::int32_t a, std::int32_t b) {
+  return a < b ? edge_key(a, b) : edge_key(b, a);
+}
+
+/// Divides a planar face, an outer loop and its holes, into triangles of its own points, turned as
+/// the face. Each edge of the face belongs to one triangle and each other edge to two, also if
+/// rounding makes the loops cross. Cuts off the corner with the best triangle first. `taken` are
+/// the edges of all faces (see undirected_key). New edges are none of them and are added, so that
+/// two faces of a body never share one.
+std::vector<Triangle> face_triangles(const std::vector<Vector3>& points, const FaceEdges& edges,
+                                     const Vector3& normal,
+                                     std::unordered_set<std::uint64_t>& taken);
 
 }  // namespace wscvt

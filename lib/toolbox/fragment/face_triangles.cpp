@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/fragment/face_triangles.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
+
+#include "toolbox/fragment/cell_complex.h"
 
 namespace wscvt {
 

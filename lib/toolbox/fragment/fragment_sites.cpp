@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/fragment/fragment_sites.h"
-
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "toolbox/fragment/cell_complex.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/sample/random_stream.h"
 #include "wscvt/base/error.h"
@@ -77,34 +77,27 @@ double height_at(const IndexedMesh& mesh, const Triangle& t, double x, double y)
 
 std::vector<Vector3> points_in(const IndexedMesh& mesh, double volume, std::size_t count) {
   const double spacing = portable::cbrt(volume / static_cast<double>(count));
-  Vector3 low = mesh.points.front();
-  Vector3 high = low;
-  for (const Vector3& p : mesh.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.points) box.extend(p);
+  const Vector3 low = box.min();
   const auto lines = [&](int axis) {
-    return static_cast<std::size_t>(std::ceil((high - low)[axis] / spacing)) + 1;
+    return static_cast<std::size_t>(std::ceil(box.sizes()[axis] / spacing)) + 1;
   };
   const std::size_t rows = lines(0);
   const std::size_t columns = lines(1);
   std::vector<std::vector<double>> heights(rows * columns);
   for (const Triangle& t : mesh.triangles) {
-    Vector3 least = mesh.points[t[0]];
-    Vector3 most = least;
-    for (const std::int32_t v : t) {
-      least = least.cwiseMin(mesh.points[v]);
-      most = most.cwiseMax(mesh.points[v]);
-    }
+    Eigen::AlignedBox3d about;
+    for (const std::int32_t v : t) about.extend(mesh.points[v]);
     const auto first = [&](int axis) {
-      return static_cast<std::size_t>(std::floor((least - low)[axis] / spacing));
+      return static_cast<std::size_t>(std::floor((about.min() - low)[axis] / spacing));
     };
     for (std::size_t i = first(0); i < rows; ++i) {
       const double x = low.x() + spacing * static_cast<double>(i);
-      if (x > most.x()) break;
+      if (x > about.max().x()) break;
       for (std::size_t j = first(1); j < columns; ++j) {
         const double y = low.y() + spacing * static_cast<double>(j);
-        if (y > most.y()) break;
+        if (y > about.max().y()) break;
         if (covers(mesh, t, x, y)) heights[i * columns + j].push_back(height_at(mesh, t, x, y));
       }
     }

@@ -11,8 +11,6 @@
 
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/fragment/cell_complex.h"
-#include "toolbox/fragment/face_triangles.h"
-#include "toolbox/fragment/fragment_sites.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"

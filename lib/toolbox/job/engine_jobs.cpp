@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "toolbox/clump/clump.h"
-#include "toolbox/convex/parts.h"
+#include "toolbox/convex/convex_parts.h"
 #include "toolbox/exchange/clump_files.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/report/clump_report.h"

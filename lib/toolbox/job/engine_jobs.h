@@ -4,7 +4,7 @@
 #include <string>
 
 #include "toolbox/clump/clump_options.h"
-#include "toolbox/convex/convex_options.h"
+#include "toolbox/convex/convex_parts.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "toolbox/job/grain_job.h"
 #include "wscvt/remesh/remesh_options.h"

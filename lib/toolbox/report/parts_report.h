@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/convex/parts.h"
+#include "toolbox/convex/convex_parts.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/report/report.h"
 

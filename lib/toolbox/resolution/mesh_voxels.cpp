@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "toolbox/volume/smoothed_surface.h"
+#include "toolbox/volume/voxel_surface.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/container_wall.h"
+#include "toolbox/volume/segmentation_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "toolbox/volume/part_tracker.h"
+#include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 

@@ -14,7 +14,6 @@
 
 #include "toolbox/volume/label_census.h"
 #include "toolbox/volume/label_volume.h"
-#include "toolbox/volume/smoothed_surface.h"
 #include "toolbox/volume/volume_choice.h"
 #include "toolbox/volume/voxel_surface.h"
 #include "wscvt/base/execution.h"

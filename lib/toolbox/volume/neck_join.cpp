@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/neck_join.h"
-
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cstddef>
 #include <map>
 #include <utility>
+
+#include "toolbox/volume/segmentation_steps.h"
 
 namespace wscvt {
 

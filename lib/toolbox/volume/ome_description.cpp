@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/ome_description.h"
-
+#include "toolbox/volume/tiff_layout.h"
 #include "toolbox/volume/voxel_rows.h"
 #ifdef WSCVT_HAS_EXPAT
 #include <expat.h>

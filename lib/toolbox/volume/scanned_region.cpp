@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/scanned_region.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <map>
+
+#include "toolbox/volume/segmentation_steps.h"
 
 namespace wscvt {
 

@@ -6,13 +6,11 @@
 #include <new>
 #include <utility>
 
-#include "toolbox/volume/container_wall.h"
 #include "toolbox/volume/grain_plateaus.h"
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/level_mask.h"
-#include "toolbox/volume/neck_join.h"
-#include "toolbox/volume/scanned_region.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/portable_math.h"
@@ -157,6 +155,18 @@ std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
+/// Returns the histogram of the differences of neighbours along x; `values`: the number of greys.
+std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
+                                          std::size_t values) {
+  std::vector<std::uint64_t> differences(values, 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (k % width > 0) {
+      ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
+    }
+  }
+  return differences;
+}
+
 /// Returns the histogram of the voxels whose six neighbours are alike. Voxels at the surface of
 /// grains are not: their values lie between two phases, and would look like a third one.
 std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
@@ -168,12 +178,8 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
   const auto difference = [&](std::size_t a, std::size_t b) {
     return static_cast<std::size_t>(std::abs(int{grey[a]} - int{grey[b]}));
   };
-  std::vector<std::uint64_t> differences(counts.size(), 0);
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width > 0) ++differences[difference(k, k - 1)];
-  }
   // Most neighbours differ by noise only. Surfaces differ by a third of the contrast and more.
-  const std::size_t noise = quantile_of(differences, 0.5);
+  const std::size_t noise = quantile_of(differences_of(grey, width, counts.size()), 0.5);
   // A few voxels of a very bright phase do not widen the range.
   constexpr double rare = 0.05;
   const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
@@ -288,17 +294,11 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
 /// Returns whether noise is more than a few percent of the contrast.
 bool is_noisy(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
               const VoxelCounts& sizes) {
-  std::vector<std::uint64_t> differences(counts.size(), 0);
   const auto width = static_cast<std::size_t>(sizes[0]);
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width > 0) {
-      ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
-    }
-  }
   const auto is_some = [](std::uint64_t count) { return count > 0; };
   if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return true;
   constexpr double little = 0.04;
-  return static_cast<double>(quantile_of(differences, 0.5)) >
+  return static_cast<double>(quantile_of(differences_of(grey, width, counts.size()), 0.5)) >
          little * contrast_at(counts, level_between_peaks(counts));
 }
 

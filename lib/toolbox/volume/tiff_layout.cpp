@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "toolbox/volume/ome_description.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/mesh_files/text_fields.h"
 

@@ -3,10 +3,40 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
-#include "toolbox/volume/tiff_dimensions.h"
+#include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/error.h"
+#include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
+
+/// Meaning of the pages of a TIFF. TIFF itself does not define it; ImageJ, OME and tifffile write
+/// it into the text of the first page.
+struct TiffLayout {
+  /// Dimensions of the pages, the fastest first: slices are Space.
+  std::vector<VolumeAxis> axes;
+  /// The page of each position in `axes`; empty: they are consecutive.
+  std::vector<std::int64_t> pages;
+  std::int64_t samples = 1;  ///< numbers per voxel, on one page
+  /// Not above 0 if unknown. ImageJ's and tifffile's is along z; x and y come from the resolution.
+  Vector3 voxel_size = Vector3::Zero();
+  std::string unit;
+  std::string other_unit;  ///< of one axis only; empty: none has another
+  /// All voxels are one block after the only page.
+  bool may_be_one_block = false;
+  std::int64_t offset = 0;      ///< to be added to each number
+  std::string writer;           ///< for messages; empty: the file has no description of its pages
+  std::vector<Sentence> notes;  ///< on the size of voxels
+  std::vector<Sentence> more_notes;  ///< on other things
+};
+
+/// The pages of a TIFF.
+struct TiffPageShape {
+  std::int64_t width = 1;
+  std::int64_t height = 1;
+  std::int64_t samples = 1;  ///< numbers per voxel
+};
 
 /// Reads what the text of one of many slices says of all: ImageJ's unit, distance of slices and
 /// calibration. Of another text nothing: the slice is no stack.
@@ -17,5 +47,10 @@ TiffLayout slice_layout(const std::string& description);
 /// dimensions or files.
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path);
+
+/// Returns the layout given in OME's XML, in any order of dimensions, as tiff_layout does:
+/// https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html
+TiffLayout layout_of_ome(const std::string& text, std::int64_t pages, std::int64_t samples,
+                         const std::string& path);
 
 }  // namespace wscvt

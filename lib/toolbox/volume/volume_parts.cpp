@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "toolbox/volume/part_tracker.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {
