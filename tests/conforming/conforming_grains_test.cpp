@@ -289,6 +289,34 @@ TEST(ConformingGrains, WallsOfAFewFacesLeaveNoSlivers) {
   }
 }
 
+TEST(ConformingGrains, PitsOfAVoxelLeaveNoNeedles) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  std::vector<Vector3> pits;
+  for (int k = 0; k < 40; ++k) {
+    const double x = place(random);
+    const double y = place(random);
+    pits.push_back(Vector3(x, y, place(random)).normalized());
+  }
+  // Each pit is a voxel wide and four deep.
+  const ConformingGrains result = conformed(voxels_of(34,
+                                                      [&](const Vector3& p) {
+                                                        const Vector3 q = p - Vector3::Constant(17);
+                                                        if (q.norm() > 14.0) return -1;
+                                                        for (const Vector3& pit : pits) {
+                                                          const double depth = q.dot(pit);
+                                                          const Vector3 aside = q - depth * pit;
+                                                          if (depth > 10.0 && aside.norm() < 0.75)
+                                                            return -1;
+                                                        }
+                                                        return 0;
+                                                      }),
+                                            1);
+  expect_conforming(result);
+  EXPECT_EQ(result.intersections, 0U);
+  EXPECT_GT(result.smallest_angle, 15.0);
+}
+
 TEST(ConformingGrains, TellsSliversAndWallsAcrossGaps) {
   // Two balls with a gap of half a voxel.
   const ConformingGrains result = conformed(voxels_of(50,

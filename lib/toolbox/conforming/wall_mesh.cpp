@@ -173,6 +173,7 @@ bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::arr
   const Vector3 after = doubled_area_normal(x[0], x[1], x[2]);
   const double shape = evenness(x[0], x[1], x[2]);
   if (shape < least && shape < evenness_of(t)) return false;
+  if (!follows_dense) return true;
   const double cosine = agreement(corners, after);
   if (cosine > 1.5) return after.dot(before) > turn * after.norm() * before.norm();
   return cosine > enough || cosine > agreement(now, before);
@@ -196,7 +197,6 @@ double WallMesh::evenness_of(std::size_t t) const {
 
 bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
                            const Vector3& position, double longest, double least) const {
-  constexpr double least_cosine = 0.5;
   bool keeps = true;
   visit_triangles(moved, [&](std::size_t t) {
     if (!keeps || corner(t, other) < 3) return;

@@ -17,6 +17,8 @@ using FewOf = boost::container::small_vector<Number, 16>;
 using EdgeTriangles = FewOf<std::size_t>;
 using WallVertices = FewOf<std::int32_t>;
 
+inline constexpr double usual_least_cosine = 0.5;
+
 /// The walls as triangles that can be changed. Every change keeps what touches what: each grain
 /// stays a closed manifold, and walls keep their lines and points.
 class WallMesh : public WallComplex {  // dead triangles have the corner -1
@@ -73,6 +75,10 @@ class WallMesh : public WallComplex {  // dead triangles have the corner -1
   /// Whether collapses may join points, and lines with a narrow wall between them. Bodies stay
   /// closed manifolds.
   bool drops_walls = false;
+  /// Collapses turn triangles by less than the angle of this cosine.
+  double least_cosine = usual_least_cosine;
+  /// Whether normals must agree with the dense walls after a collapse.
+  bool follows_dense = true;
   std::vector<WallPlace> places;      ///< of the vertices
   std::vector<std::int32_t> anchors;  ///< a vertex of the dense walls near each vertex
 

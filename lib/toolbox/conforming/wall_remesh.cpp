@@ -15,10 +15,10 @@ namespace {
 constexpr double longest_share = 4.0 / 3.0;
 constexpr double shortest_share = 4.0 / 5.0;
 
-// Of the wanted length: walls that are narrower and lines that are shorter leave flat tetrahedra.
+// Of the wanted length: shorter edges, and walls that are narrower, leave flat tetrahedra.
 constexpr double narrow_share = 0.4;
 
-// Of the wanted length: edges that are shorter leave slivers beside them, also among voxels.
+// Of the wanted length: walls of one face of voxels stay at the usual edge.
 constexpr double tiny_share = 0.25;
 
 constexpr double flat_evenness = 0.1;  ///< angles of about 2 or 4 degrees
@@ -80,19 +80,27 @@ void WallRemesher::collapse_short(double most) {
 void WallRemesher::collapse_narrow() {
   const bool drops_walls = mesh_.drops_walls;
   mesh_.drops_walls = true;
+  // Pits and peaks of single voxels are needles, beside which no smaller turn is left.
+  mesh_.least_cosine = 0.0;
+  mesh_.follows_dense = false;
   for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
       const std::int32_t a = mesh_.triangles[t].corners[k];
       const std::int32_t b = mesh_.triangles[t].corners[following(k)];
       const double length = wanted(a, b);
+      const double share = (mesh_.points[index(a)] - mesh_.points[index(b)]).norm() / length;
+      const bool is_within =
+          std::min(mesh_.places[index(a)], mesh_.places[index(b)]) == WallPlace::Wall;
       const bool is_flat = mesh_.evenness_of(t) < flat_evenness;
-      const double limit = (is_flat ? narrow_share : tiny_share) * length;
-      if ((mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm() > limit * limit) continue;
+      if (share > (is_within || is_flat ? narrow_share : tiny_share)) continue;
       // Longer edges and flatter triangles than elsewhere: nothing else takes such an edge away.
-      if (join(a, b, 2.0 * length, flat_evenness)) k = 3;
+      const double evenness = std::clamp(share, flat_evenness, least_evenness);
+      if (join(a, b, 2.0 * length, evenness)) k = 3;
     }
   }
   mesh_.drops_walls = drops_walls;
+  mesh_.least_cosine = usual_least_cosine;
+  mesh_.follows_dense = true;
 }
 
 bool WallRemesher::join(std::int32_t a, std::int32_t b, double longest, double evenness) {
