@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -76,17 +77,9 @@ void measure(TetrahedralMesh& mesh) {
   }
 }
 
-}  // namespace
-
-void require_tetrahedra() { require_gmsh(); }
-
-TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution& execution) {
-  require_in_range(edge, tetrahedra_edge_option);
-  const double volume = volume_of(surface, execution);
-  if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
-  execution.report(0.0, "Filling with tetrahedra");
-  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
-  const double radius = equivalent_radius(volume);
+/// Fills a surface by one way of Gmsh. `radius`: of the ball with its volume.
+TetrahedralMesh filled_by(const IndexedMesh& surface, double radius, double edge,
+                          GmshAlgorithm algorithm) {
   const Vector3 centre = surface.points.front();
   std::vector<double> coordinates;
   for (const Vector3& p : surface.points) {
@@ -95,26 +88,18 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   }
   std::vector<std::size_t> corners;
   for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
-  // Regular ones have 6 sqrt(2) tetrahedra per edge cubed.
-  const double expected = 6.0 * std::sqrt(2.0) * volume / (wanted * wanted * wanted);
-  if (expected > most_tetrahedra) {
-    refuse("Edges of " + format_number(wanted) + " need about " + format_number(expected / 1e6, 3) +
-           " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
-           " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
-  }
-  const GmshVolume filled =
-      gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
+  const GmshVolume made =
+      gmsh_volume(std::move(coordinates), std::move(corners), edge / radius, algorithm);
   TetrahedralMesh mesh;
-  mesh.surface = std::move(surface);
-  for (std::size_t i = mesh.surface.points.size(); i < filled.coordinates.size() / 3; ++i) {
-    const double* const own = filled.coordinates.data() + 3 * i;
+  mesh.surface = surface;
+  for (std::size_t i = mesh.surface.points.size(); i < made.coordinates.size() / 3; ++i) {
+    const double* const own = made.coordinates.data() + 3 * i;
     mesh.surface.points.push_back(centre + radius * Vector3(own[0], own[1], own[2]));
   }
   const std::vector<Vector3>& points = mesh.surface.points;
-  for (std::size_t k = 0; k + 3 < filled.corners.size(); k += 4) {
+  for (std::size_t k = 0; k + 3 < made.corners.size(); k += 4) {
     Tetrahedron t{};
-    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(filled.corners[k + c]);
+    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(made.corners[k + c]);
     if (six_volumes(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]],
                     points[t[3]] - points[t[0]]) < 0.0) {
       std::swap(t[0], t[1]);
@@ -124,6 +109,39 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   check_surface(mesh);
   measure(mesh);
   return mesh;
+}
+
+}  // namespace
+
+void require_tetrahedra() { require_gmsh(); }
+
+TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution& execution) {
+  require_in_range(edge, tetrahedra_edge_option);
+  const double volume = volume_of(surface, execution);
+  if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
+  execution.report(0.0, "Filling with tetrahedra");
+  const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
+  // Regular ones have 6 sqrt(2) tetrahedra per edge cubed.
+  const double expected = 6.0 * std::sqrt(2.0) * volume / (wanted * wanted * wanted);
+  if (expected > most_tetrahedra) {
+    refuse("Edges of " + format_number(wanted) + " need about " + format_number(expected / 1e6, 3) +
+           " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
+           " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
+  }
+  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
+  const double radius = equivalent_radius(volume);
+  std::optional<TetrahedralMesh> best;
+  for (const GmshAlgorithm algorithm : {GmshAlgorithm::Hxt, GmshAlgorithm::Delaunay}) {
+    const bool is_last = algorithm == GmshAlgorithm::Delaunay;
+    try {
+      TetrahedralMesh made = filled_by(surface, radius, wanted, algorithm);
+      if (!best || made.smallest_dihedral > best->smallest_dihedral) best = std::move(made);
+    } catch (const Error&) {
+      if (is_last && !best) throw;
+    }
+    if (best && best->smallest_dihedral >= good_dihedral) break;
+  }
+  return std::move(*best);
 }
 
 namespace {
