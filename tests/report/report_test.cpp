@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wscvt/report/report.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,6 +21,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/json.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt {
 namespace {
@@ -630,6 +629,22 @@ TEST(Report, MassHoldsEveryNumberOfTheTensorAndTheAxes) {
       "inertia_tensor": {"xx": 11.0, "yy": 22.0, "zz": 33.0, "xy": 12.0, "xz": 13.0, "yz": 23.0},
       "principal_moments": {"least": 4.0, "middle": 5.0, "greatest": 6.0},
       "principal_axes": {"w": 0.1, "x": 0.2, "y": 0.3, "z": 0.4}})"));
+}
+
+TEST(Report, AdditionsFollowInDocumentAndPage) {
+  const RemeshResult result = example();
+  const std::vector<ReportAddition> additions = {{"Tetrahedra",
+                                                  {"Tetrahedra: 7 of 9 points"},
+                                                  "tetrahedra",
+                                                  {{"count", 7}},
+                                                  {{"angle", 12.5}}}};
+  auto json = nlohmann::json::parse(report_json(result, {}, additions));
+  EXPECT_EQ(json.at("tetrahedra"), nlohmann::json::parse(R"({"count": 7, "angle": 12.5})"));
+  json.erase("tetrahedra");
+  EXPECT_EQ(json, nlohmann::json::parse(report_json(result)));
+  const std::string page = report_html(result, {}, additions, Execution(1));
+  EXPECT_NE(page.find("Tetrahedra: 7 of 9 points"), std::string::npos);
+  EXPECT_EQ(report_html(result, {}, Execution(1)).find("Tetrahedra"), std::string::npos);
 }
 
 TEST(Report, CsvIsTheJsonWithoutItsLists) {

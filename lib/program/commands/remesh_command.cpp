@@ -14,13 +14,14 @@
 #include "program/call/exit_code.h"
 #include "program/commands/commands.h"
 #include "program/terminal/work.h"
+#include "toolbox/exchange/tetrahedra_files.h"
 #include "toolbox/map/scan_harmonics.h"
 #include "wscvt/base/text.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_options.h"
-#include "wscvt/report/report.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt::program {
 
@@ -78,9 +79,12 @@ void check_coefficients_path(const std::string& path) {
 
 /// Fills the remesh with tetrahedra, if the call asks for it. Returns lines for the log.
 std::vector<std::string> fill(const TetrahedraArguments& tetrahedra, const IndexedMesh& surface,
-                              Work& work) {
-  return write_all_tetrahedra(
-      tetrahedra, work, [&] { return tetrahedra_in(surface, tetrahedra.edge, work.execution()); });
+                              Work& work, std::vector<ReportAddition>& additions) {
+  return write_all_tetrahedra(tetrahedra, work, [&] {
+    TetrahedralMesh body = tetrahedra_in(surface, tetrahedra.edge, work.execution());
+    additions.push_back(tetrahedra_addition(body));
+    return body;
+  });
 }
 
 int run(const RemeshArguments& arguments) {
@@ -102,7 +106,6 @@ int run(const RemeshArguments& arguments) {
   });
   RemeshOptions options = arguments.options;
   if (!arguments.coefficients.empty()) options.measures.series = scan_harmonics;
-
   // For pages and signed distances.
   options.measures.repaired_scan =
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
@@ -148,8 +151,9 @@ int run(const RemeshArguments& arguments) {
       write_distance_grid(path, result, simulation.options, origin, execution);
     });
   }
-  const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work);
-  work.write_reports(common.reports, result, origin);
+  std::vector<ReportAddition> additions;
+  const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work, additions);
+  work.write_reports(common.reports, result, origin, additions);
   if (!arguments.coefficients.empty()) {
     work.write(arguments.coefficients, [&](const std::string& path, const Execution&) {
       write_coefficients(path, result);

@@ -36,13 +36,14 @@ class Work {
     written_.push_back(path);
   }
 
-  /// Writes the reports of a result, each in the format of its file's name.
-  template <class Result>
+  /// Writes the reports of a result, each in the format of its file's name. `more`: what its
+  /// write_report takes besides.
+  template <class Result, class... More>
   void write_reports(const std::vector<std::string>& reports, const Result& result,
-                     const ReportOrigin& origin) {
+                     const ReportOrigin& origin, const More&... more) {
     for (const std::string& report : reports) {
       write(report, [&](const std::string& path, const Execution& execution) {
-        write_report(path, result, origin, execution);
+        write_report(path, result, origin, more..., execution);
       });
     }
   }

@@ -219,4 +219,14 @@ void write_tetrahedra(const std::string& path, const TetrahedralMesh& mesh) {
                        : abaqus_text(mesh));
 }
 
+ReportAddition tetrahedra_addition(const TetrahedralMesh& mesh) {
+  return {"Tetrahedra",
+          {tetrahedra_line(mesh)},
+          "tetrahedra",
+          {{"count", mesh.tetrahedra.size()}, {"points", mesh.surface.points.size()}},
+          {{"smallest_dihedral_degrees", mesh.smallest_dihedral},
+           {"largest_dihedral_degrees", mesh.largest_dihedral},
+           {"mean_edge", mesh.mean_edge}}};
+}
+
 }  // namespace wscvt

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "toolbox/tetrahedra/tetrahedra.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt {
 
@@ -44,5 +45,9 @@ std::string msh_of_parts(const std::vector<Vector3>& points, const std::vector<T
                          const std::vector<MeshPart>& surfaces,
                          const std::vector<Tetrahedron>& tetrahedra,
                          const std::vector<MeshPart>& volumes);
+
+/// Returns the part "tetrahedra" of a remesh's report: their number and points, smallest and
+/// largest dihedral angle, mean edge.
+ReportAddition tetrahedra_addition(const TetrahedralMesh& mesh);
 
 }  // namespace wscvt

@@ -6,7 +6,7 @@
 #include "wscvt/base/text.h"
 #include "wscvt/base/version.h"
 #include "wscvt/report/open_table.h"
-#include "wscvt/report/report.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt {
 
@@ -72,8 +72,13 @@ void check_descriptor_report(const std::string& path, bool with_reference, bool 
 
 void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
                   const Execution& execution) {
-  write_forms(path, {[&] { return report_html(result, origin, execution); },
-                     [&] { return report_json(result, origin); },
+  write_report(path, result, origin, {}, execution);
+}
+
+void write_report(const std::string& path, const RemeshResult& result, const ReportOrigin& origin,
+                  const std::vector<ReportAddition>& additions, const Execution& execution) {
+  write_forms(path, {[&] { return report_html(result, origin, additions, execution); },
+                     [&] { return report_json(result, origin, additions); },
                      [&] { return report_csv(result, origin); }});
 }
 

@@ -10,7 +10,7 @@
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/page_figures.h"
-#include "wscvt/report/report.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt {
 
@@ -58,6 +58,11 @@ Figure search_figure(const NodeCountSearch& search, const ErrorTarget& target) {
 
 std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
                         const Execution& execution) {
+  return report_html(result, origin, {}, execution);
+}
+
+std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
+                        const std::vector<ReportAddition>& additions, const Execution& execution) {
   std::optional<ShownMesh> reference;
   if (!result.repaired_scan.triangles.empty()) {
     reference.emplace(ShownMesh{result.repaired_scan, "scan"});
@@ -82,6 +87,10 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   if (result.search) {
     page.add_heading("Error against the number of nodes");
     page.add_figures({search_figure(*result.search, result.options.target)});
+  }
+  for (const ReportAddition& addition : additions) {
+    page.add_heading(addition.heading);
+    page.add_lines(addition.lines);
   }
   page.add_heading("Options");
   OptionRows options;

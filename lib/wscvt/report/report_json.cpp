@@ -6,7 +6,7 @@
 
 #include "wscvt/base/option.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/report.h"
+#include "wscvt/report/report_addition.h"
 
 namespace wscvt {
 
@@ -217,8 +217,18 @@ Json json_of(const RemeshOptions& options) {
   return json;
 }
 
+std::string report_json(const RemeshResult& result, const ReportOrigin& origin,
+                        const std::vector<ReportAddition>& additions) {
+  Json report = report_of(result, origin);
+  for (const ReportAddition& addition : additions) {
+    for (const auto& [key, count] : addition.counts) report[addition.key][key] = count;
+    for (const auto& [key, value] : addition.values) report[addition.key][key] = value;
+  }
+  return json_document(report);
+}
+
 std::string report_json(const RemeshResult& result, const ReportOrigin& origin) {
-  return json_document(report_of(result, origin));
+  return report_json(result, origin, {});
 }
 
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin) {
