@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
@@ -28,17 +32,20 @@ py::array_t<std::int32_t> corners_of(const TetrahedralMesh& mesh) {
   return corners;
 }
 
-py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge_length,
-                    const std::optional<std::filesystem::path>& output, int threads,
-                    const py::object& progress) {
+py::dict filled(const std::function<TetrahedralMesh(const Execution&)>& fill,
+                const std::optional<std::filesystem::path>& output, int threads,
+                const py::object& progress) {
   if (output) check_tetrahedra_file(output->string());
-  IndexedMesh surface = mesh_of(vertices, faces);
   const TetrahedralMesh mesh = work_on(threads, progress, [&](const Execution& execution) {
-    TetrahedralMesh made = tetrahedra_in(std::move(surface), edge_length, execution);
+    TetrahedralMesh made = fill(execution);
     if (output) write_tetrahedra(output->string(), made);
     return made;
   });
   py::dict result;
+  if (!mesh.names.empty()) {
+    result["bodies"] =
+        py::array_t<std::int32_t>(static_cast<py::ssize_t>(mesh.bodies.size()), mesh.bodies.data());
+  }
   result["vertices"] = array_of(mesh.surface.points);
   result["tetrahedra"] = corners_of(mesh);
   result["faces"] = array_of(mesh.surface.triangles);
@@ -48,12 +55,40 @@ py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge
   return result;
 }
 
+py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge_length,
+                    const std::optional<std::filesystem::path>& output, int threads,
+                    const py::object& progress) {
+  IndexedMesh surface = mesh_of(vertices, faces);
+  return filled(
+      [&](const Execution& execution) {
+        return tetrahedra_in(std::move(surface), edge_length, execution);
+      },
+      output, threads, progress);
+}
+
+py::dict tetrahedra_of_bodies(const std::vector<py::object>& meshes, const std::string& kind,
+                              const std::vector<std::string>& names, double edge_length,
+                              const std::optional<std::filesystem::path>& output, int threads,
+                              const py::object& progress) {
+  std::vector<IndexedMesh> bodies;
+  for (const py::object& mesh : meshes) bodies.push_back(mesh_of_reference(mesh));
+  return filled(
+      [&](const Execution& execution) {
+        return tetrahedra_in(bodies, kind, names, edge_length, execution);
+      },
+      output, threads, progress);
+}
+
 }  // namespace
 
 // wscvt/__init__.py documents the arguments and the result.
 void bind_tetrahedra(py::module_& module) {
   module.def("tetrahedra", &tetrahedra, py::arg("vertices"), py::arg("faces"), py::kw_only(),
              py::arg("edge_length") = 0.0, py::arg("output") = py::none(), py::arg("threads") = 0,
+             py::arg("progress") = py::none());
+  module.def("tetrahedra_of_bodies", &tetrahedra_of_bodies, py::arg("meshes"), py::arg("kind"),
+             py::arg("names"), py::kw_only(), py::arg("edge_length") = 0.0,
+             py::arg("output") = py::none(), py::arg("threads") = 0,
              py::arg("progress") = py::none());
 }
 

@@ -562,17 +562,30 @@ def tetrahedra(vertices, faces=None, **options):
     """Fills a closed mesh with tetrahedra for finite elements, by Gmsh, and returns a dictionary.
 
     wscvt.tetrahedra(wscvt.remesh("scan.ply", 1000), output="body.inp")
+    wscvt.tetrahedra(wscvt.extract(labels, conforming=True), output="packing.msh")
+    wscvt.tetrahedra(wscvt.fragment("grain.ply", 20, nodes=200)[0], output="pieces.msh")
 
     vertices, faces: a closed mesh or a Remesh, as for remesh. Its points and triangles are kept.
+        Or several bodies: a dictionary of pairs (vertices, faces) by label, or a list of pairs.
+        Walls that two of them share are in the result once.
     edge_length: the longest wanted edge inside, in the mesh's unit. 0, the default: as on the surface.
     output: also write this file: .vtu (ParaView), .msh (Gmsh) or .inp (Abaqus, CalculiX).
     threads, progress: as for remesh.
 
     vertices (n, 3): the mesh's, then the inner ones; tetrahedra (m, 4), the fourth corner sees the
     others counter-clockwise; faces: the mesh's; smallest_dihedral_degrees and
-    largest_dihedral_degrees: angles between faces of a tetrahedron; mean_edge. Raises Error if Gmsh
-    is not there or cannot fill the mesh.
+    largest_dihedral_degrees: angles between faces of a tetrahedron; mean_edge. Of several bodies
+    also bodies (m,): the label of each tetrahedron's, or its number in the list, from 1. Raises Error
+    if Gmsh is not there or cannot fill the mesh.
     """
+    if isinstance(vertices, (dict, list)) and faces is None:
+        is_packing = isinstance(vertices, dict)
+        names = list(vertices) if is_packing else list(range(1, len(vertices) + 1))
+        meshes = [tuple(pair) for pair in (vertices.values() if is_packing else vertices)]
+        result = _call(_wscvt.tetrahedra_of_bodies, meshes, "grain" if is_packing else "fragment",
+                       [str(name) for name in names], **options)
+        result["bodies"] = numpy.array(names)[result["bodies"]]
+        return result
     return _call(_wscvt.tetrahedra, *_arrays(vertices, faces), **options)
 
 
