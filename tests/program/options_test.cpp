@@ -7,6 +7,9 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "program_run.h"
 #include "support/test_shapes.h"
@@ -148,6 +151,34 @@ TEST_F(ProgramOptions, RefuseWhatIsNotTheirsWithTheChoicesAndBeginNothing) {
     EXPECT_NE(outcome.errors.find(one.words), std::string::npos) << outcome.errors;
     EXPECT_EQ(outcome.output, "");
     EXPECT_FALSE(exists("remesh.ply"));
+  }
+}
+
+TEST_F(ProgramOptions, WithoutAnEffectAreTold) {
+  const std::string call = "scan.ply remesh.ply -q -n 60 -d 6 ";
+  for (const auto& [option, needed, used] :
+       {std::tuple("--alpha=2", "--weighting=wscvt-c", "-w wscvt-c"),
+        {"--contact-radius=1.3", "--placement=contact-fit", "-p contact-fit"},
+        {"--error-measure=area", "--max-error", "--max-error 30"},
+        {"--max-nodes=500", "--max-error", "--max-error 30"}}) {
+    SCOPED_TRACE(option);
+    const std::string name = std::string(option).substr(0, std::string(option).find('='));
+    const Outcome idle = run(call + option);
+    EXPECT_EQ(idle.exit_code, 0);
+    EXPECT_NE(idle.errors.find("Warning: " + name + " has no effect without " + needed + "."),
+              std::string::npos)
+        << idle.errors;
+    const Outcome works = run(call + option + " " + used);
+    EXPECT_EQ(works.exit_code, 0);
+    EXPECT_EQ(works.errors.find("no effect"), std::string::npos) << works.errors;
+  }
+  for (const auto& [option, needed] :
+       {std::pair("--sdf-spacing", "0.2"), {"--sdf-surface", "remesh"}, {"--edge-length", "0.2"}}) {
+    const Outcome outcome = run(call + option + " " + needed);
+    EXPECT_EQ(outcome.exit_code, 2);
+    const std::string file = std::string(option) == "--edge-length" ? "--tetrahedra" : "--sdf";
+    EXPECT_NE(outcome.errors.find(std::string(option) + " requires " + file), std::string::npos)
+        << outcome.errors;
   }
 }
 

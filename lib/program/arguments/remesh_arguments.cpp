@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "program/call/command.h"
+#include "program/terminal/terminal.h"
 #include "wscvt/base/text.h"
 #include "wscvt/remesh/remesh_options.h"
 
@@ -35,6 +36,33 @@ constexpr Marked marked[] = {
     {error_target_option.key, 0, true},
     {distances_option.key, 0, true},
 };
+
+/// An option that has an effect only with a value of another; empty: with any value.
+struct Dependent {
+  std::string_view key;
+  std::string_view other;
+  std::string_view value;
+};
+constexpr Dependent dependents[] = {
+    {curvature_alpha_option.key, EnumerationTable<CellWeighting>::key, "wscvt-c"},
+    {contact_radius_option.key, EnumerationTable<ScanPlacement>::key, "contact-fit"},
+    {EnumerationTable<ErrorMeasure>::key, error_target_option.key, ""},
+    {largest_node_count_option.key, error_target_option.key, ""},
+};
+
+/// Tells options without an effect. They are no error: a call may have all options of a report.
+void tell_idle_options(const TypedOptions& given) {
+  for (const Dependent& one : dependents) {
+    if (given.count(std::string(one.key)) == 0) continue;
+    const auto other = given.find(std::string(one.other));
+    const bool is_used =
+        other != given.end() && (one.value.empty() || lower_case(other->second) == one.value);
+    if (is_used) continue;
+    std::string needed = "--" + std::string(one.other);
+    if (!one.value.empty()) needed += "=" + std::string(one.value);
+    print_error("Warning: --" + std::string(one.key) + " has no effect without " + needed + ".");
+  }
+}
 
 const Marked* mark_of(std::string_view key) {
   const Marked* found = std::find_if(std::begin(marked), std::end(marked),
@@ -150,6 +178,7 @@ void add_remesh_arguments(CLI::App& app, RemeshOptions& options, Remeshed remesh
     read_options(*given, options, [](std::string_view key, const Sentence& refusal) {
       throw CLI::ValidationError("--" + std::string(key), refusal);
     });
+    tell_idle_options(*given);
   });
 }
 

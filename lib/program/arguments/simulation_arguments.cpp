@@ -20,6 +20,7 @@ void add_tetrahedra_arguments(CLI::App& app, TetrahedraArguments& arguments,
 void add_tetrahedra_edge(CLI::App& app, TetrahedraArguments& arguments) {
   add_number(app, "--" + std::string(tetrahedra_edge_option.key), arguments.edge,
              tetrahedra_edge_option)
+      ->needs("--tetrahedra")
       ->group(finer_settings);
 }
 
@@ -56,9 +57,11 @@ void add_options(CLI::App& app, SimulationOptions& options) {
   add_number(app, "--" + std::string(scale_option.key), options.frame.scale, scale_option)
       ->group(finer_settings);
   add_choice(app, "--" + std::string(EnumerationTable<GridSurface>::key), options.surface)
+      ->needs("--sdf")
       ->group(finer_settings);
   add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
              grid_spacing_option)
+      ->needs("--sdf")
       ->group(finer_settings);
 }
 

@@ -122,6 +122,11 @@ CallWords call_words(std::vector<std::string> words, const std::vector<std::stri
   for (const char* own : {"--help", "-h", "--version", "--completion", "--man-pages"}) {
     if (first.substr(0, first.find('=')) == own) return {words, ""};
   }
+  if (words.size() == 1 && first.rfind("--", 0) == 0) {
+    refuse_call("wscvt has no option " + first + "." +
+                meant_word(first, {"--help", "--version", "--completion", "--man-pages"}) +
+                " \"wscvt --help\" lists all.");
+  }
   const bool is_many = names_files(first);
   // A file name has a point or a slash, or that of Windows.
   if (!is_many && first.find_first_of("-./\\") == std::string::npos)
@@ -154,9 +159,10 @@ std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) 
     const CLI::Option* output = command->get_option_no_throw("--output");
     const bool is_missing =
         output != nullptr && std::string(error.what()) == "--output is required";
-    if (is_missing && output->get_positional()) {
-      return output->get_name(true) + " is required, as the last word or by -o.";
-    }
+    if (!is_missing) continue;
+    return output->get_positional()
+               ? output->get_name(true) + " is required, as the last word or by -o."
+               : "--output is required. Give its name by -o.";
   }
   return "";
 }

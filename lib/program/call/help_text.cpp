@@ -139,6 +139,8 @@ std::string HelpFormatter::make_option_name(const CLI::Option* option, bool is_p
 
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   std::string text = CLI::Formatter::make_option_opts(option);
+  // The description says what an option belongs to.
+  text.erase(std::min(text.find(" Needs:"), text.size()));
   // For an option of three numbers, the type's name shows the count.
   const std::size_t place = text.find(" x ");
   return place == std::string::npos ? text : text.erase(place);
