@@ -37,7 +37,7 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
   EXPECT_NE(content("c.molecule").find("density 3\n"), std::string::npos);
   EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
   EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
-  const Outcome compared = run("describe c.csv scan.ply");
+  const Outcome compared = run("describe c.csv scan.ply -v");
   EXPECT_EQ(compared.exit_code, 0) << compared.errors;
   EXPECT_NE(compared.output.find("root mean square, from the reference"), std::string::npos);
   // A point cloud of centres is no grain.

@@ -103,6 +103,63 @@ TEST_F(CommandLine, SentencesAreBrokenOnATerminalOnly) {
   }
 }
 
+TEST_F(CommandLine, ALogIsBrokenOnceOnANarrowTerminal) {
+  const std::vector<std::string> call = {"remesh", WSCVT_MESHES_DIR "/sand_7228.ply", "x.ply", "-n",
+                                         "100"};
+  const std::string piped = run("remesh " + sand_ + " x.ply -n 100").output;
+  const std::regex seconds("Time +[^\n]*\n");
+  // Progress is drawn over: "50 %  Stage", then the rest of the line is cleared.
+  const std::regex progress("[0-9]+ %  [^\x1b]*\x1b\\[K|\x1b\\[K");
+  for (const unsigned short columns : {50, 60, 80}) {
+    SCOPED_TRACE(columns);
+    const std::string log = std::regex_replace(shown(call, columns), progress, "");
+    EXPECT_LE(widest(log.substr(log.find("Scan "))), columns) << log;
+    const std::string joined = std::regex_replace(log, std::regex("\n +"), " ");
+    EXPECT_EQ(std::regex_replace(joined.substr(joined.find("Scan ")), seconds, ""),
+              std::regex_replace(piped, seconds, ""));
+    // Only the last line of a sentence may have room for the next word.
+    std::istringstream lines(log.substr(log.find("Scan ")));
+    std::string before;
+    for (std::string line; std::getline(lines, line); before = line) {
+      const std::size_t begin = line.find_first_not_of(' ');
+      if (begin == 0 || begin == std::string::npos) continue;
+      const std::size_t word = std::min(line.find(' ', begin), line.size()) - begin;
+      EXPECT_GT(before.size() + 1 + word, columns) << before << "\n" << line;
+    }
+  }
+}
+
+TEST_F(CommandLine, LogsAreShortAndTellSeconds) {
+  const std::string two = sand_ + " '" WSCVT_MESHES_DIR "/angular_6000.ply'";
+  const auto lines_of = [](const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto expect_short = [&](const std::string& call) {
+    SCOPED_TRACE(call);
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_LE(lines_of(outcome.output), 12) << outcome.output;
+    EXPECT_TRUE(std::regex_search(outcome.output, std::regex("(^|\n)Time +[0-9.e+-]+ s\n")))
+        << outcome.output;
+    return lines_of(outcome.output);
+  };
+  expect_short("remesh " + sand_ + " remesh.ply -n 100");
+  expect_short("create ellipsoid e.ply -n 60");
+  expect_short("batch " + two + " -o out -n 60,80,100");
+  expect_short("batch " + two + " -o one -n 60");
+  expect_short("clump " + sand_ + " -k 3 -o clump.csv");
+  expect_short("clump " + two + " -k 3 -o clumps");
+  expect_short("fragment " + sand_ + " -k 3 -o fragments");
+  expect_short("grow one --templates -k 1 -n 60 -o chosen");
+  // What is measured has more with -v.
+  for (const std::string call :
+       {"describe " + sand_, "describe remesh.ply " + sand_, std::string("sample one"),
+        std::string("sample out"), std::string("sample one out")}) {
+    const auto count = expect_short(call);
+    EXPECT_GT(lines_of(run(call + " -v").output), count) << call;
+  }
+}
+
 TEST_F(CommandLine, RemeshesToTheExactCount) {
   const Outcome outcome = run(sand_ + " remesh.ply -n 300 --report report.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
@@ -168,6 +225,17 @@ TEST_F(CommandLine, TellsAWrongCallFromWorkThatFails) {
                   {sand_ + " remesh.ply more.ply", 2, "more.ply"},
                   {sand_, 2, "output"}},
                  {"remesh.ply", "report.json"});
+}
+
+TEST_F(CommandLine, TellsWhatACommandOrTheProgramLacks) {
+  for (const auto& [call, words] :
+       {std::pair("--versoin", "wscvt has no option --versoin. Did you mean --version?"),
+        {"batch meshes", "--output is required. Give its name by -o."},
+        {"sample a b c", "3 samples are given. Give one sample, or two to compare."}}) {
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+  }
 }
 
 TEST_F(CommandLine, NeverReplacesTheScan) {

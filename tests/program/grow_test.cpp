@@ -71,7 +71,9 @@ TEST_F(Grow, GoesOnAfterAnInterruptionAndInParts) {
   const std::string made = first.substr(end, 11) + ".ply";
   EXPECT_EQ(content("parts/" + made), content("whole/" + made));
   const Outcome joined = run(call + "parts");
-  EXPECT_EQ(joined.output, whole.output) << "also of the grains that were made before";
+  const auto statistics = [](const std::string& log) { return log.substr(0, log.find("Files ")); };
+  EXPECT_EQ(statistics(joined.output), statistics(whole.output))
+      << "also of the grains that were made before";
   EXPECT_EQ(content("parts/grown.csv"), table);
   EXPECT_FALSE(exists("parts/call.json") || exists("parts/grown-2-of-2.csv"));
   EXPECT_EQ(run("grow real -k 6 -n 60 --degree 7 -o parts -q").exit_code, 0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 namespace {
@@ -67,6 +69,32 @@ TEST(DescriptorReport, CsvIsTheJsonWithoutItsLists) {
   for (const GrainMeasures& measures : {one(), two()}) {
     test::expect_csv_is_flat_json(descriptor_csv(measures), descriptor_json(measures));
   }
+}
+
+TEST(DescriptorReport, TheSummaryIsShortAndHasLinesOfTheWholeText) {
+  for (const GrainMeasures& measures : {one(), two()}) {
+    const std::vector<std::string> lines = summary_lines(measures);
+    EXPECT_LE(lines.size(), 11U);  // with the seconds 12
+    std::string all;
+    for (const std::string& line : descriptor_lines(measures)) {
+      all += std::regex_replace(line, std::regex(" +"), " ") + "\n";
+    }
+    std::size_t rows = 0;
+    for (const std::string& line : lines) {
+      EXPECT_LE(line.size(), 80U) << line;
+      if (line.rfind("Distance ", 0) == 0) continue;  // the numbers are tested below
+      const std::string row = std::regex_replace(line, std::regex(" +"), " ") + "\n";
+      EXPECT_NE(all.find(row), std::string::npos) << line;
+      ++rows;
+    }
+    EXPECT_EQ(rows, measures.reference ? 10U : 9U);
+  }
+  const GrainMeasures pair = two();
+  const std::string last = summary_lines(pair).back();
+  const double radius = pair.reference->checked.report.equivalent_radius;
+  const auto percent = [&](double d) { return format_number(100.0 * d / radius, 3) + " %"; };
+  EXPECT_NE(last.find("rms " + percent(pair.distances->root_mean_square)), std::string::npos);
+  EXPECT_NE(last.find("largest " + percent(pair.distances->largest)), std::string::npos) << last;
 }
 
 TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {

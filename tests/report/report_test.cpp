@@ -763,12 +763,7 @@ TEST(ReportSummary, TellsTheErrorsThatAPlainComputationGives) {
   const RemeshResult result = remesh_of(test::lumpy(5), 300);
   const std::vector<std::string> lines = summary_lines(result);
   const auto percent = [](double value, double scan) { return 100.0 * (value - scan) / scan; };
-  std::string errors;  // may be two lines
-  for (const std::string& line : lines) {
-    if (line.rfind("Errors", 0) == 0 || (!errors.empty() && line.front() == ' ')) {
-      errors += line.substr(errors.empty() ? 0 : 11);
-    }
-  }
+  const std::string errors = line_of(lines, "Errors");
   // Errors have three decimals.
   EXPECT_NE(errors.find("volume exact"), std::string::npos) << errors;
   EXPECT_NEAR(number_behind(errors, " area "), percent(result.remesh.area, result.scan.area), 6e-4);
@@ -787,15 +782,16 @@ TEST(ReportSummary, TellsTheErrorsThatAPlainComputationGives) {
   EXPECT_GT(largest, rms);
 }
 
-TEST(ReportSummary, IsShortAndNarrowAlsoForARepairedScan) {
+TEST(ReportSummary, IsShortAlsoForARepairedScan) {
   IndexedMesh scan = test::lumpy(4);
   scan.triangles.resize(scan.triangles.size() - 3);
   scan.triangles.push_back(scan.triangles.front());
   scan.points.emplace_back(9.0, 9.0, 9.0);
   const std::vector<std::string> lines = summary_lines(remesh_of(scan, 150));
   EXPECT_NE(line_of(lines, "Repairs"), "");
-  EXPECT_LE(lines.size(), 9U);
-  for (const std::string& line : lines) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_LE(lines.size(), 6U);
+  // A topic a line: who shows them breaks them.
+  for (const std::string& line : lines) EXPECT_NE(line.front(), ' ') << line;
 }
 
 TEST(ReportSummary, SdqOfItsClipIsNoFaultOfTheRemesh) {

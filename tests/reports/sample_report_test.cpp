@@ -105,6 +105,40 @@ GrainTable scanned_table() {
   return table;
 }
 
+/// What a page calls the columns of these samples.
+const std::map<std::string, std::string> in_words = {{"size", "size"},
+                                                     {"volume", "volume"},
+                                                     {"axis_i_box", "axis I (oriented box)"},
+                                                     {"axis_s_box", "axis S (oriented box)"},
+                                                     {"axis_l_box", "axis L (oriented box)"},
+                                                     {"convexity", "convexity V / V(hull)"},
+                                                     {"rms_distance", "rms distance"},
+                                                     {"contact_normal_90", "contact normal 90"}};
+
+/// Levels whose numbers are all different: k and 90 % of k * 10 of row r at level l.
+DetailLevels six_levels() {
+  DetailLevels levels;
+  levels.mark_percent = 1.5;
+  levels.nodes = {100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0};
+  for (const char* name : {"volume", "convexity", "rms_distance", "contact_normal_90"}) {
+    DescriptorLevels row;
+    row.name = name;
+    for (std::size_t l = 0; l < 6; ++l) {
+      LevelError error;
+      error.count = 7 + l;
+      error.median =
+          0.5 + static_cast<double>(levels.rows.size()) + 0.0625 * static_cast<double>(l);
+      error.percent_90 = 10.0 * error.median;
+      row.levels.push_back(error);
+    }
+    row.nodes_needed = 1000.0 + 100.0 * static_cast<double>(levels.rows.size());
+    levels.rows.push_back(row);
+  }
+  levels.rows[0].levels[5].median = 1e-13;
+  levels.rows[1].levels[0].count = 0;
+  return levels;
+}
+
 TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   SampleReport report;
   report.options.repetitions = 0;
@@ -155,10 +189,10 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   const std::string page = sample_html(report, Execution(1));
   const test::Rows trends = test::table_named(page, "correlation with size");
   ASSERT_EQ(trends.size(), 2U);
-  EXPECT_EQ(trends[1],
-            (std::vector<std::string>{trend.name, "39", shown(trend.raw.value, trend.raw),
-                                      shown(trend.corrected.value, trend.corrected), "33",
-                                      shown(trend.trusted.value, trend.trusted)}));
+  EXPECT_EQ(trends[1], (std::vector<std::string>{"sphericity (Wadell)", "39",
+                                                 shown(trend.raw.value, trend.raw),
+                                                 shown(trend.corrected.value, trend.corrected),
+                                                 "33", shown(trend.trusted.value, trend.trusted)}));
   const Document data = data_of(page);
   EXPECT_EQ(data["leastAcross"].get<double>(), 15.0);
   EXPECT_EQ(data["samples"][0]["resolved"], Document({"area", "sphericity_wadell"}));
@@ -217,12 +251,44 @@ TEST(SampleReport, LinesFitATerminalAndNameTheSize) {
                                     std::string("which is why it goes on in the next line.")};
   std::string text;
   for (const std::string& line : sample_lines(report)) {
-    EXPECT_LE(line.size(), 80U) << line;
+    // Notes and the size stay whole: who shows them breaks them.
+    EXPECT_TRUE(line.size() <= 80U || line == report.samples[0].sample.notes[0]) << line;
     text += line + "\n";
   }
   for (const char* part : {"first: 40 grains", "second & last", "second largest edge", "D60",
                            "Wasserstein", "convexity", "next line."}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(SampleReport, TheSummaryIsShortAndHasOneTable) {
+  SampleReport one = report_of(40, false);
+  SampleReport two = report_of(40, true);
+  SampleReport levels = report_of(12, false);
+  levels.levels = six_levels();
+  for (const auto& [report, heading] : {std::pair(&one, "by number"),
+                                        {&two, "Wasserstein / deviation"},
+                                        {&levels, "90 % of errors, %"}}) {
+    SCOPED_TRACE(heading);
+    const std::vector<std::string> lines = summary_lines(*report);
+    EXPECT_LE(lines.size(), 11U);  // with the seconds 12
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    std::size_t tables = 0;
+    for (const char* other : {"  95 % from", "Wasserstein / deviation", "90 % of errors, %"}) {
+      if (text.find(other) != std::string::npos) ++tables;
+    }
+    EXPECT_EQ(tables, 1U);
+    EXPECT_NE(text.find(heading), std::string::npos) << text;
+    EXPECT_NE(text.find("\nconvexity "), std::string::npos) << text;
+    for (const ReportedSample& sample : report->samples) {
+      const SizeEstimates& sizes = sample.statistics.size_by_mass;
+      EXPECT_NE(text.find("Sieve size, mm by mass: D10 " + shown(sizes.d10.value, sizes.d10) +
+                          ", D50 " + shown(sizes.d50.value, sizes.d50) + ", D90 " +
+                          shown(sizes.d90.value, sizes.d90)),
+                std::string::npos)
+          << text;
+    }
   }
 }
 
@@ -408,11 +474,11 @@ TEST(SampleReportNumbers, OfTheDescriptorsAreThoseOfTheGrains) {
       EXPECT_EQ(
           page[1 + c],
           (std::vector<std::string>{
-              heading_of(column), std::to_string(by_number.grains().size()),
-              shown(by_number.mean(), s.by_number.mean), format_number(by_number.deviation(), 4),
-              format_number(by_number.quantile(0.1), 4), format_number(by_number.quantile(0.5), 4),
-              format_number(by_number.quantile(0.9), 4), format_number(by_mass.mean(), 4),
-              shown(correlation, s.size_correlation)}));
+              in_words.at(column.name) + (column.unit.empty() ? "" : ", " + column.unit),
+              std::to_string(by_number.grains().size()), shown(by_number.mean(), s.by_number.mean),
+              format_number(by_number.deviation(), 4), format_number(by_number.quantile(0.1), 4),
+              format_number(by_number.quantile(0.5), 4), format_number(by_number.quantile(0.9), 4),
+              format_number(by_mass.mean(), 4), shown(correlation, s.size_correlation)}));
       const Document& in_json = json.at("samples").at(k).at("descriptors").at(column.name);
       EXPECT_EQ(in_json.at("unit"), column.unit);
       EXPECT_EQ(in_json.at("count"), by_number.grains().size());
@@ -488,7 +554,8 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
                     : Eigen::VectorXd(sample.values.col(static_cast<Eigen::Index>(k) - 1));
     };
     const double deviation = test::PlainStatistics(values(a)).deviation();
-    std::vector<std::string> expected = {heading_of(row.column)};
+    std::vector<std::string> expected = {in_words.at(row.column.name) +
+                                         (row.column.unit.empty() ? "" : ", " + row.column.unit)};
     for (const bool by_mass : {false, true}) {
       const auto plain = [&](const GrainSample& sample) {
         return by_mass ? test::PlainStatistics(values(sample), sample.masses)
@@ -529,30 +596,6 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
   EXPECT_EQ(seen, 1U);
 }
 
-/// Levels whose numbers are all different: k and 90 % of k * 10 of row r at level l.
-DetailLevels six_levels() {
-  DetailLevels levels;
-  levels.mark_percent = 1.5;
-  levels.nodes = {100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0};
-  for (const char* name : {"volume", "convexity", "rms_distance", "contact_normal_90"}) {
-    DescriptorLevels row;
-    row.name = name;
-    for (std::size_t l = 0; l < 6; ++l) {
-      LevelError error;
-      error.count = 7 + l;
-      error.median =
-          0.5 + static_cast<double>(levels.rows.size()) + 0.0625 * static_cast<double>(l);
-      error.percent_90 = 10.0 * error.median;
-      row.levels.push_back(error);
-    }
-    row.nodes_needed = 1000.0 + 100.0 * static_cast<double>(levels.rows.size());
-    levels.rows.push_back(row);
-  }
-  levels.rows[0].levels[5].median = 1e-13;
-  levels.rows[1].levels[0].count = 0;
-  return levels;
-}
-
 TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
   SampleReport report = report_of(12, false);
   report.levels = six_levels();
@@ -574,7 +617,8 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
     SCOPED_TRACE(row.name);
     const std::string unit = r == 3 ? "|degrees" : "|%";
     ASSERT_EQ(page[1 + r].size(), 8U);
-    EXPECT_EQ(page[1 + r][0], row.name);
+    EXPECT_EQ(page[1 + r][0], in_words.at(row.name));
+    EXPECT_EQ(data.at("rows").at(r).at("words"), in_words.at(row.name));
     EXPECT_EQ(page[1 + r][7], format_number(row.nodes_needed, 4));
     EXPECT_EQ(data.at("rows").at(r).at("name"), row.name);
     EXPECT_EQ(json.at("descriptors").at(row.name).at("nodes_needed"), row.nodes_needed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/arguments/grain_inputs.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -127,6 +128,7 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, double density, int threads, bool quiet) {
+  const auto begin = std::chrono::steady_clock::now();
   const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
   const std::unique_ptr<GrainSource> inputs = open_inputs(
       files, {}, arguments.shard, quiet,
@@ -134,11 +136,12 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print({end_line(job, end)}, quiet);
+  std::vector<std::string> lines = {end_line(job, end)};
   if (!arguments.engine.empty() && arguments.shard.count == 1) {
     const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame, density);
-    print({"Pack them: cd " + folders_of(job).front().path() + " && " + start}, quiet);
+    lines.push_back("Pack them: cd " + folders_of(job).front().path() + " && " + start);
   }
+  print_made(std::move(lines), job.folder, begin, quiet);
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

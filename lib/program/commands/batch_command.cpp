@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
 #include <algorithm>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -88,6 +89,7 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
 }
 
 int run(const BatchArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
   checked([&] {
     check_job(arguments.job);
     check_volume_options(arguments.job.volume);
@@ -105,7 +107,7 @@ int run(const BatchArguments& arguments) {
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print(write_summaries(job), arguments.quiet);
+  print_made(write_summaries(job), arguments.folder, begin, arguments.quiet);
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

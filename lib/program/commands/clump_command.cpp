@@ -136,7 +136,7 @@ int run(const ClumpArguments& arguments) {
     });
   }
   work.write_reports(common.reports, clump, origin_of(scan));
-  work.print_made(clump.warnings, clump_lines(clump));
+  work.print(clump.warnings, clump_lines(clump));
   return Done;
 }
 

@@ -115,7 +115,7 @@ int run(const ConvexArguments& arguments) {
     });
   }
   work.write_reports(common.reports, result, origin_of(scan));
-  work.print_made(result.warnings, parts_lines(result));
+  work.print(result.warnings, parts_lines(result));
   return Done;
 }
 

@@ -100,7 +100,8 @@ void describe_mesh(const DescribeArguments& arguments) {
   }
   work.write_reports(arguments.common.reports, measures, origin_of(arguments.grain));
   for (const Sentence& remark : remarks(measures)) warnings.push_back(remark);
-  work.print(warnings, descriptor_lines(measures));
+  work.print(warnings,
+             arguments.common.verbose ? descriptor_lines(measures) : summary_lines(measures));
 }
 
 void compare_parts(const DescribeArguments& arguments) {
@@ -169,8 +170,8 @@ void describe_labels(const DescribeArguments& arguments) {
   std::vector<std::string> lines = {labels->description()};
   lines.insert(lines.end(), labels->notes().begin(), labels->notes().end());
   for (std::string& line : fabric_lines(fabric)) lines.push_back(std::move(line));
-  lines.push_back("Look at \"" + in_folder("fabric.html") + "\"");
-  work.print(labels->warnings(), lines);
+  work.print(labels->warnings(), std::move(lines), arguments.folder,
+             "Look at \"" + in_folder("fabric.html") + "\"");
 }
 
 CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
@@ -197,8 +198,8 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
   add_file_argument(app, "-o,--output", arguments.folder, "Output folder, for the contacts")
       ->type_name("OUT");
   app.add_flag("--parts", arguments.parts,
-               "Measure the distances and volume of convex parts: each component of GRAIN is a "
-               "part");
+               "Measure GRAIN as convex parts, each connected part by itself: their distances and "
+               "volume");
   const auto add = [&](double& value, const NumberOption<double>& option) {
     add_number(app, "--" + std::string(option.key), value, option);
   };
@@ -212,6 +213,7 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
   voxel_size->group("Options");
   add_background_argument(app, arguments.fabric.background, finer_settings);
   add_common_arguments(app, arguments.common);
+  add_verbose_argument(app, arguments.common.verbose);
   return app;
 }
 

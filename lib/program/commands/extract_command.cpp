@@ -103,7 +103,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
     return tetrahedra_in(meshes, "grain", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
-  work.print_made(conforming_warnings(result, labels), std::move(lines), arguments.folder);
+  work.print(conforming_warnings(result, labels), std::move(lines), arguments.folder);
   return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
 }
 
@@ -225,8 +225,7 @@ int run(const ExtractArguments& given) {
   std::vector<std::string> lines = job.shard.count > 1
                                        ? std::vector<std::string>{end_line(job, end)}
                                        : write_census(arguments.job, job, grains);
-  for (std::string& line : end_of_log({arguments.folder}, begin)) lines.push_back(std::move(line));
-  print(lines, arguments.quiet);
+  print_made(std::move(lines), arguments.folder, begin, arguments.quiet);
   return end.failed == 0 && !is_much_left_out(grains.left_out()) ? Done : SomeFailed;
 }
 

@@ -200,7 +200,7 @@ int run(const FragmentArguments& arguments) {
   lines.insert(lines.end(), filled.begin(), filled.end());
   for (std::string& line : older.remove_but(files, arguments.grain))
     lines.push_back(std::move(line));
-  work.print_made(warnings, std::move(lines), arguments.folder);
+  work.print(warnings, std::move(lines), arguments.folder);
   return Done;
 }
 

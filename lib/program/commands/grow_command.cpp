@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,7 +59,8 @@ TemplateJob checked_choice(const GrowArguments& arguments) {
   return job;
 }
 
-int choose_templates_of(const GrowArguments& arguments) {
+int choose_templates_of(const GrowArguments& arguments,
+                        std::chrono::steady_clock::time_point begin) {
   const TemplateJob job = checked([&] { return checked_choice(arguments); });
   const MadeFolder folder(job.folder);
   const DescribedSample sample =
@@ -70,7 +72,7 @@ int choose_templates_of(const GrowArguments& arguments) {
     return made.end;
   });
   if (made.end.was_cancelled()) return 128 + noted_signal();
-  print(made.lines, arguments.quiet);
+  print_made(std::move(made.lines), job.folder, begin, arguments.quiet);
   return sample.left_out == 0 ? Done : SomeFailed;
 }
 
@@ -131,8 +133,9 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
 }
 
 int run(const GrowArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
   if (!arguments.quiet) check_writable("/dev/stdout");
-  if (arguments.templates) return choose_templates_of(arguments);
+  if (arguments.templates) return choose_templates_of(arguments, begin);
   const GrowJob job = checked([&] { return checked_job(arguments); });
   const std::vector<std::string> files = checked([&] {
     std::vector<std::string> real = shape_files(arguments.inputs);
@@ -149,7 +152,7 @@ int run(const GrowArguments& arguments) {
     return grown.end;
   });
   if (grown.end.was_cancelled()) return 128 + noted_signal();
-  print(grown.lines, arguments.quiet);
+  print_made(std::move(grown.lines), job.folder, begin, arguments.quiet);
   return left_out == 0 ? Done : SomeFailed;
 }
 

@@ -159,8 +159,7 @@ int run(const RemeshArguments& arguments) {
       write_coefficients(path, result);
     });
   }
-  if (!filled.empty()) work.print({}, filled);
-  work.print_log(result, common.verbose);
+  work.print_log(result, common.verbose, filled);
   return Done;
 }
 

@@ -30,6 +30,7 @@ struct SampleArguments {
   std::vector<std::string> reports;          ///< files; the ending selects the format
   int threads = 0;                           ///< 0: all
   bool quiet = false;
+  bool verbose = false;
 };
 
 namespace fs = std::filesystem;
@@ -81,8 +82,7 @@ CLI::App& add_arguments(CLI::App& program, SampleArguments& arguments) {
   app.add_option("samples", arguments.samples,
                  "A folder or a table; a second sample is compared with the first")
       ->type_name("SAMPLE")
-      ->required()
-      ->expected(1, 2);
+      ->required();
   add_choice(app, "--diameter", arguments.options.size);
   add_choice(app, "--describe", arguments.options.of);
   add_typed(app, "--density",
@@ -105,11 +105,16 @@ CLI::App& add_arguments(CLI::App& program, SampleArguments& arguments) {
       ->allow_extra_args(false);
   add_threads_argument(app, arguments.threads);
   app.add_flag("-q,--quiet", arguments.quiet, "Print only errors");
+  add_verbose_argument(app, arguments.verbose);
   return app;
 }
 
 int run(const SampleArguments& arguments) {
   checked([&] {
+    if (arguments.samples.size() > 2) {
+      refuse(std::to_string(arguments.samples.size()) +
+             " samples are given. Give one sample, or two to compare.");
+    }
     check_densities(arguments);
     for (const std::string& report : arguments.reports) report_format(report);
     std::vector<NamedFile> inputs;
@@ -135,7 +140,7 @@ int run(const SampleArguments& arguments) {
       write_sample_report(path, report, part);
     });
   }
-  work.print({}, sample_lines(report));
+  work.print({}, arguments.verbose ? sample_lines(report) : summary_lines(report));
   return Done;
 }
 

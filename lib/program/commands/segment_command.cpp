@@ -103,9 +103,9 @@ int run(const SegmentArguments& arguments) {
   lines.insert(lines.end(), scan->notes().begin(), scan->notes().end());
   for (const std::string& warning : scan->warnings()) lines.push_back("Look: " + warning);
   for (std::string& line : segmentation_lines(result)) lines.push_back(std::move(line));
-  lines.push_back("Look at \"" + page + "\" first. Then: wscvt batch " + arguments.labels +
-                  " -o out -n 500");
-  work.print({}, lines);
+  work.print(
+      {}, std::move(lines), "",
+      "Look at \"" + page + "\" first. Then: wscvt batch " + arguments.labels + " -o out -n 500");
   return Done;
 }
 

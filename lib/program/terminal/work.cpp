@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/terminal/work.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -56,31 +55,25 @@ Work::Work(int threads, bool quiet)
   note_signals();
 }
 
-void Work::print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines) {
+void Work::print(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
+                 const std::string& folder, const std::string& last_line) {
   line_.clear();
   print_warnings({warnings.begin(), warnings.end()});
-  program::print(lines, quiet_);
-}
-
-void Work::print_made(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
-                      const std::string& folder) {
   for (std::string& line :
        end_of_log(folder.empty() ? written_ : std::vector<std::string>{folder}, begin_)) {
     lines.push_back(std::move(line));
   }
-  print(warnings, lines);
+  if (!last_line.empty()) lines.push_back(last_line);
+  program::print(lines, quiet_);
 }
 
-void Work::print_log(const RemeshResult& result, bool verbose) {
-  std::vector<std::string> lines = verbose ? report_lines(result) : summary_lines(result);
-  // Warnings are printed once, before.
-  lines.erase(
-      std::remove_if(lines.begin(), lines.end(),
-                     [](const std::string& line) { return line.rfind("Warning ", 0) == 0; }),
-      lines.end());
-  for (std::string& line : end_of_log(written_, begin_)) lines.push_back(std::move(line));
-  lines.push_back(verdict_line(result));
-  print(verbose ? report_warnings(result) : result.warnings, lines);
+void Work::print_log(const RemeshResult& result, bool verbose, std::vector<std::string> lines) {
+  for (std::string& line : verbose ? report_lines(result) : summary_lines(result)) {
+    // Warnings are printed once, before.
+    if (line.rfind("Warning ", 0) != 0) lines.push_back(std::move(line));
+  }
+  print(verbose ? report_warnings(result) : result.warnings, std::move(lines), "",
+        verdict_line(result));
 }
 
 std::vector<std::string> end_of_log(const std::vector<std::string>& written,
@@ -105,6 +98,12 @@ void print(const std::vector<std::string>& lines, bool quiet) {
   std::string text;
   for (const std::string& line : lines) text += readable(line) + "\n";
   write_file("/dev/stdout", shown_on(Stream::Output, text));
+}
+
+void print_made(std::vector<std::string> lines, const std::string& folder,
+                std::chrono::steady_clock::time_point begin, bool quiet) {
+  for (std::string& line : end_of_log({folder}, begin)) lines.push_back(std::move(line));
+  print(lines, quiet);
 }
 
 ReportOrigin origin_of(const std::string& source) { return {source, today()}; }

@@ -48,18 +48,15 @@ class Work {
     }
   }
 
-  /// Clears the progress line. Prints warnings to the standard error, and the lines to the standard
-  /// output unless quiet.
-  void print(const std::vector<Sentence>& warnings, const std::vector<std::string>& lines);
+  /// Clears the progress line. Prints warnings to the standard error. Unless quiet, prints to the
+  /// standard output the lines, the files written, or only their folder if it is given, the seconds
+  /// since the work began, and the last line if it is given.
+  void print(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
+             const std::string& folder = "", const std::string& last_line = "");
 
-  /// As print. Then lines tell the files written, or only their folder if it is given, and the
-  /// seconds since the work began.
-  void print_made(const std::vector<Sentence>& warnings, std::vector<std::string> lines,
-                  const std::string& folder = "");
-
-  /// Prints the log of a remesh: the warnings, a summary or the whole report, the files written,
-  /// the seconds since the work began, and the verdict.
-  void print_log(const RemeshResult& result, bool verbose);
+  /// Prints the log of a remesh: the warnings, other lines, a summary or the whole report, and the
+  /// verdict as the last line.
+  void print_log(const RemeshResult& result, bool verbose, std::vector<std::string> lines = {});
 
  private:
   bool quiet_;
@@ -90,6 +87,10 @@ void print_warnings(const std::vector<std::string>& warnings);
 
 /// Prints lines to the standard output, unless quiet.
 void print(const std::vector<std::string>& lines, bool quiet);
+
+/// Prints lines, and those of end_of_log.
+void print_made(std::vector<std::string> lines, const std::string& folder,
+                std::chrono::steady_clock::time_point begin, bool quiet);
 
 /// Returns the origin for a report: the source and today's date.
 ReportOrigin origin_of(const std::string& source);

@@ -267,7 +267,12 @@ std::vector<std::string> write_summaries(const GrainJob& job) {
       write_summary(folder.file("summary", ending), summary,
                     [&](const std::string& grain) { return folder.file_of(grain); });
     }
-    for (const std::string& line : summary_lines(summary)) lines.push_back(line);
+    std::vector<std::string> told = summary_lines(summary);
+    if (!job.levels.empty()) {
+      const std::string level = std::filesystem::path(folder.path()).filename().string();
+      told = {level + ": " + told.front()};
+    }
+    lines.insert(lines.end(), told.begin(), told.end());
   }
   const bool has_voxels =
       std::any_of(job.tables.begin(), job.tables.end(), [](const JobTable& one) {

@@ -11,6 +11,7 @@
 #include "toolbox/report/sample_report.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/report/html_document.h"
@@ -34,6 +35,26 @@ constexpr const char* page_style =
     "<style>select, input { font: inherit; } input { width: 5em; } figcaption button { "
     "margin-left: 0.5em; font-size: 0.9em; } @media print { button, select, input { display: none; "
     "} }</style>\n";
+
+/// Returns the words for a column of a table: the label of a descriptor without the settings of its
+/// grain (ball, cut-off), else the column's name with spaces.
+std::string words_of(const std::string& column) {
+  static const std::vector<DescriptorValue> known = list_descriptors(DetailedDescriptors());
+  for (const DescriptorValue& one : known) {
+    if (one.key != column) continue;
+    const std::size_t settings =
+        std::min(one.label.find(", balls of"), one.label.find(" (cut-off"));
+    const bool is_in_brackets = settings < one.label.size() && one.label[settings] == ',';
+    return one.label.substr(0, settings) + (is_in_brackets ? ")" : "");
+  }
+  std::string words = column;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::string heading_in_words(const GrainColumn& column) {
+  return words_of(column.name) + (column.unit.empty() ? "" : ", " + column.unit);
+}
 
 /// Returns at most `most` rows, evenly spaced in the order of size. They keep the shape of the
 /// distribution.
@@ -115,11 +136,6 @@ std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>
   return text + "}";
 }
 
-std::string size_name(const GrainSample& sample) {
-  const std::string name = sample.size_name.substr(0, sample.size_name.find(':'));
-  return sample.size_unit.empty() ? name : name + ", " + sample.size_unit;
-}
-
 std::string sample_data(const ReportedSample& one, std::size_t samples,
                         const Execution& execution) {
   const GrainSample& sample = one.sample;
@@ -131,7 +147,9 @@ std::string sample_data(const ReportedSample& one, std::size_t samples,
   Json columns = Json::array();
   std::string values = "[";
   for (std::size_t k = 0; k < sample.columns.size(); ++k) {
-    columns.push_back({{"name", sample.columns[k].name}, {"unit", sample.columns[k].unit}});
+    const GrainColumn& column = sample.columns[k];
+    columns.push_back(
+        {{"name", column.name}, {"words", words_of(column.name)}, {"unit", column.unit}});
     if (k > 0) values += ',';
     values += short_list(sample.values.col(static_cast<Eigen::Index>(k)), rows);
   }
@@ -170,7 +188,7 @@ Json needed_of(const SampleStatistics& s) {
   add("D50 by mass", s.size_by_mass.d50);
   add("D60 by mass", s.size_by_mass.d60);
   for (const ColumnStatistics& column : s.columns) {
-    if (column.count > 0) add("mean of " + column.column.name, column.by_number.mean);
+    if (column.count > 0) add("mean of " + words_of(column.column.name), column.by_number.mean);
   }
   return list;
 }
@@ -184,7 +202,10 @@ Json levels_of(const DetailLevels& levels) {
       median.push_back(error.median);
       most.push_back(error.percent_90);
     }
-    rows.push_back({{"name", row.name}, {"median", median}, {"percent_90", most}});
+    rows.push_back({{"name", row.name},
+                    {"words", words_of(row.name)},
+                    {"median", median},
+                    {"percent_90", most}});
   }
   return {{"nodes", levels.nodes}, {"mark", levels.mark_percent}, {"rows", rows}};
 }
@@ -199,14 +220,6 @@ std::string data_of(const SampleReport& report, const Execution& execution) {
   text += ",\"leastAcross\":" + format_number(least_trusted_across, 3);
   return text + ",\"levels\":" + (report.levels ? in_page(levels_of(*report.levels)) : "null") +
          "}";
-}
-
-std::string with_interval(const Estimate& e) {
-  std::string text = format_number(e.value, 4);
-  if (std::isfinite(e.lower)) {
-    text += " (" + format_number(e.lower, 4) + " to " + format_number(e.upper, 4) + ")";
-  }
-  return text;
 }
 
 std::vector<std::vector<std::string>> size_table(const SampleReport& report) {
@@ -241,10 +254,10 @@ std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one
   for (const ColumnStatistics& c : one.statistics.columns) {
     if (c.count == 0) continue;
     const auto value = [](const Estimate& e) { return format_number(e.value, 4); };
-    rows.push_back({heading_of(c.column), std::to_string(c.count), with_interval(c.by_number.mean),
-                    value(c.by_number.deviation), value(c.by_number.percent_10),
-                    value(c.by_number.median), value(c.by_number.percent_90), value(c.by_mass.mean),
-                    with_interval(c.size_correlation)});
+    rows.push_back(
+        {heading_in_words(c.column), std::to_string(c.count), with_interval(c.by_number.mean),
+         value(c.by_number.deviation), value(c.by_number.percent_10), value(c.by_number.median),
+         value(c.by_number.percent_90), value(c.by_mass.mean), with_interval(c.size_correlation)});
   }
   return rows;
 }
@@ -254,7 +267,7 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
                                                  "Wasserstein / deviation", "p", "K-S by mass", "p",
                                                  "Wasserstein / deviation", "p"}};
   for (const ColumnComparison& row : report.comparison) {
-    std::vector<std::string> cells = {heading_of(row.column)};
+    std::vector<std::string> cells = {heading_in_words(row.column)};
     for (const SampleDistance& d : {row.by_number, row.by_mass}) {
       for (const double value :
            {d.kolmogorov, d.kolmogorov_p, d.wasserstein / row.deviation, d.wasserstein_p}) {
@@ -276,7 +289,7 @@ std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
   for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
   rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
   for (const DescriptorLevels& row : levels.rows) {
-    std::vector<std::string> cells = {row.name};
+    std::vector<std::string> cells = {words_of(row.name)};
     for (const LevelError& error : row.levels) {
       cells.push_back(error.count == 0
                           ? "-"
@@ -293,7 +306,7 @@ std::vector<std::vector<std::string>> trends_table(const ReportedSample& one) {
       {"correlation with size", "grains resolved", "raw", "corrected",
        "grains from " + format_number(least_trusted_across, 3) + " voxels", "corrected"}};
   for (const VoxelTrend& trend : one.trends) {
-    rows.push_back({trend.name, std::to_string(trend.count), with_interval(trend.raw),
+    rows.push_back({words_of(trend.name), std::to_string(trend.count), with_interval(trend.raw),
                     with_interval(trend.corrected), std::to_string(trend.trusted_count),
                     with_interval(trend.trusted)});
   }

@@ -6,7 +6,12 @@ const colours = ["#0a58b4", "#c2570c"];
 const width = 460, height = 330, left = 62, right = 14, top_ = 14, bottom = 48;
 const escaped = text => String(text).replace(/[&<>"]/g, c => "&#" + c.charCodeAt(0) + ";");
 const shown = value => value === null || !isFinite(value) ? "-" : String(+value.toPrecision(4));
-const heading = column => column.unit ? column.name + " [" + column.unit + "]" : column.name;
+const heading = column => column.unit ? column.words + ", " + column.unit : column.words;
+// Words for a column, with its unit.
+const wordsOf = name => {
+  const column = data.samples[0].columns.find(one => one.name === name);
+  return column ? heading(column) : name;
+};
 const found = value => value !== null && isFinite(value);
 function values(sample, name) {
   const k = sample.columns.findIndex(column => column.name === name);
@@ -287,8 +292,7 @@ function histogram(name, weighting) {
       return percent;
     });
   });
-  const unit = (data.samples[0].columns.find(column => column.name === name) || {}).unit;
-  const a = axes({low: low, high: high, label: unit ? name + ", " + unit : name},
+  const a = axes({low: low, high: high, label: wordsOf(name)},
                  {low: 0, high: highest * 1.15 || 1, label: "grains by " + weighting + ", %"});
   let body = a.body;
   bars.forEach((percents, s) => {
@@ -307,7 +311,7 @@ function againstSize(name) {
   const beyond = (high / low) ** 0.03, above = 0.03 * (to - from);
   const a = axes({low: low / beyond, high: high * beyond, log: true,
                   label: data.samples[0].sizeName},
-                 {low: from - above, high: to + above, label: name});
+                 {low: from - above, high: to + above, label: wordsOf(name)});
   const rows = [["sample", "grain", "size", name]];
   let body = a.body;
   data.samples.forEach((sample, s) => {
@@ -331,7 +335,7 @@ function againstVoxels(sample, name) {
   const [from, to] = range([raw, corrected]);
   const beyond = (high / low) ** 0.03, above = 0.03 * (to - from);
   const a = axes({low: low / beyond, high: high * beyond, log: true, label: "voxels across"},
-                 {low: from - above, high: to + above, label: name});
+                 {low: from - above, high: to + above, label: wordsOf(name)});
   const limit = a.px(data.leastAcross);
   const words = (x, place, text_) => text(x, top_ + 14, text_, `text-anchor="${place}" fill="#333"`);
   let body = `<rect x="${at(limit)}" y="${top_}" width="${at(width - right - limit)}" ` +
@@ -438,7 +442,7 @@ if (scanned.length > 0) {
   const caption = "against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
   for (const name of main.filter(one => names_.includes(one))) {
     for (const sample of scanned) {
-      figure("voxels", "voxels_" + name, sample.name + ": " + name + " " + caption,
+      figure("voxels", "voxels_" + name, sample.name + ": " + wordsOf(name) + " " + caption,
              () => againstVoxels(sample, name));
     }
   }
@@ -447,7 +451,7 @@ if (data.levels) {
   let shownLevel = data.levels.rows[0].name;
   const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark.";
   const redraw = figure("levels", "levels", caption, () => errors(shownLevel));
-  choice("levels-choice", "Error of", data.levels.rows.map(row => [row.name, row.name]), shownLevel,
+  choice("levels-choice", "Error of", data.levels.rows.map(row => [row.name, row.words]), shownLevel,
          value => {
            shownLevel = value;
            redraw();

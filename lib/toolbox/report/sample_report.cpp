@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <utility>
 
+#include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/voxel_resolution.h"
@@ -35,10 +37,21 @@ bool is_main(const std::string& name) {
          std::end(main_columns);
 }
 
-/// Errors of the remesh itself, not of a descriptor.
-bool is_distance_or_contact(const std::string& name) {
-  return name == "rms_distance" || name.rfind("contact_", 0) == 0;
+/// Of levels, also the errors of the remesh itself, not of a descriptor.
+bool is_main_level(const std::string& name) {
+  return is_main(name) || name == "rms_distance" || name.rfind("contact_", 0) == 0;
 }
+
+/// Columns that a person reads first.
+bool is_first_read(const std::string& name) {
+  constexpr const char* columns[] = {
+      "sphericity_wadell", "convexity",    "zingg_elongation_box", "zingg_flatness_box",
+      "roundness_wadell",  "rms_distance", "contact_error_mean"};
+  return std::find(std::begin(columns), std::end(columns), name) != std::end(columns);
+}
+
+using Rows = std::vector<std::vector<std::string>>;
+using IsShown = std::function<bool(const std::string&)>;
 
 std::string short_number(double value) { return format_number(value, 4); }
 
@@ -65,21 +78,6 @@ void for_each_estimate(const ColumnEstimates& c, const Visitor& visit) {
   visit("percent_90", c.percent_90);
 }
 
-std::vector<std::string> wrapped(const std::string& text) {
-  constexpr std::size_t most = 80;
-  std::vector<std::string> lines;
-  std::string remaining = text;
-  while (remaining.size() > most) {
-    std::size_t space = remaining.rfind(' ', most);
-    if (space == std::string::npos || space == 0) space = remaining.find(' ', 1);
-    if (space == std::string::npos) break;
-    lines.push_back(remaining.substr(0, space));
-    remaining.erase(0, space + 1);
-  }
-  lines.push_back(remaining);
-  return lines;
-}
-
 void append(std::vector<std::string>& lines, const std::vector<std::string>& more) {
   lines.insert(lines.end(), more.begin(), more.end());
 }
@@ -90,11 +88,28 @@ std::string of_grains(const ReportedSample& one) {
          (one.sample.failed > 0 ? ", " + std::to_string(one.sample.failed) + " failed" : "");
 }
 
+/// Returns no lines for a heading alone.
+std::vector<std::string> table_of(const Rows& rows) {
+  return rows.size() > 1 ? aligned_lines(rows) : std::vector<std::string>();
+}
+
+Rows descriptor_rows(const ReportedSample& one, const IsShown& is_shown) {
+  Rows rows = {{"by number", "mean", "95 % from", "to", "median", "by mass"}};
+  for (const ColumnStatistics& column : one.statistics.columns) {
+    if (!is_shown(column.column.name) || column.count == 0) continue;
+    const Estimate& mean = column.by_number.mean;
+    rows.push_back({column.column.name, short_number(mean.value), short_number(mean.lower),
+                    short_number(mean.upper), short_number(column.by_number.median.value),
+                    short_number(column.by_mass.mean.value)});
+  }
+  return rows;
+}
+
 void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
-  append(lines, wrapped(of_grains(one)));
-  for (const std::string& note : one.sample.notes) append(lines, wrapped(note));
-  append(lines, wrapped("Size: " + one.sample.size_name +
-                        (one.sample.size_unit.empty() ? "" : ", " + one.sample.size_unit)));
+  lines.push_back(of_grains(one));
+  append(lines, one.sample.notes);
+  lines.push_back("Size: " + one.sample.size_name +
+                  (one.sample.size_unit.empty() ? "" : ", " + one.sample.size_unit));
   lines.push_back("Mass of all grains: " + short_number(one.statistics.mass));
   std::vector<std::vector<std::string>> rows = {
       {"", "by mass", "95 % from", "to", "by number", "95 % from", "to"}};
@@ -104,15 +119,7 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
                     short_number(count.upper)});
   });
   append(lines, aligned_lines(rows));
-  rows = {{"by number", "mean", "95 % from", "to", "median", "by mass"}};
-  for (const ColumnStatistics& column : one.statistics.columns) {
-    if (!is_main(column.column.name) || column.count == 0) continue;
-    const Estimate& mean = column.by_number.mean;
-    rows.push_back({column.column.name, short_number(mean.value), short_number(mean.lower),
-                    short_number(mean.upper), short_number(column.by_number.median.value),
-                    short_number(column.by_mass.mean.value)});
-  }
-  if (rows.size() > 1) append(lines, aligned_lines(rows));
+  append(lines, table_of(descriptor_rows(one, is_main)));
   rows = {{"correlation with size", "resolved", "raw", "corrected",
            "from " + short_number(least_trusted_across) + " voxels"}};
   for (const VoxelTrend& trend : one.trends) {
@@ -120,14 +127,14 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
     rows.push_back({trend.name, std::to_string(trend.count), short_number(trend.raw.value),
                     short_number(trend.corrected.value), short_number(trend.trusted.value)});
   }
-  if (rows.size() > 1) append(lines, aligned_lines(rows));
+  append(lines, table_of(rows));
 }
 
-std::vector<std::vector<std::string>> comparison_rows(const SampleReport& report, bool all) {
+Rows comparison_rows(const SampleReport& report, const IsShown& is_shown) {
   std::vector<std::vector<std::string>> rows = {
       {"by number", "K-S distance", "p", "Wasserstein / deviation", "p"}};
   for (const ColumnComparison& row : report.comparison) {
-    if (!all && row.column.name != "size" && !is_main(row.column.name)) continue;
+    if (row.column.name != "size" && !is_shown(row.column.name)) continue;
     const SampleDistance& d = row.by_number;
     rows.push_back({row.column.name, short_number(d.kolmogorov), short_number(d.kolmogorov_p),
                     short_number(d.wasserstein / row.deviation), short_number(d.wasserstein_p)});
@@ -135,10 +142,9 @@ std::vector<std::vector<std::string>> comparison_rows(const SampleReport& report
   return rows;
 }
 
-std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, bool all) {
+Rows level_rows(const DetailLevels& levels, const IsShown& is_shown) {
   // Four columns fit a terminal's line.
-  const std::size_t shown =
-      all ? levels.nodes.size() : std::min<std::size_t>(levels.nodes.size(), 4);
+  const std::size_t shown = std::min<std::size_t>(levels.nodes.size(), 4);
   const std::size_t first = levels.nodes.size() - shown;
   std::vector<std::vector<std::string>> rows = {{"90 % of errors, %"}};
   for (std::size_t k = first; k < levels.nodes.size(); ++k) {
@@ -147,7 +153,7 @@ std::vector<std::vector<std::string>> level_rows(const DetailLevels& levels, boo
   rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
   for (const DescriptorLevels& row : levels.rows) {
     if (row.levels.back().count == 0) continue;
-    if (!all && !is_main(row.name) && !is_distance_or_contact(row.name)) continue;
+    if (!is_shown(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
       // An error this small is rounding.
@@ -250,6 +256,20 @@ void append_levels(const std::string& sample, const DetailLevels& levels, std::s
 
 }  // namespace
 
+std::string size_name(const GrainSample& sample) {
+  const std::string name = sample.size_name.substr(0, sample.size_name.find(':'));
+  return sample.size_unit.empty() ? name : name + ", " + sample.size_unit;
+}
+
+std::string with_interval(const Estimate& estimate) {
+  std::string text = format_number(estimate.value, 4);
+  if (std::isfinite(estimate.lower)) {
+    text +=
+        " (" + format_number(estimate.lower, 4) + " to " + format_number(estimate.upper, 4) + ")";
+  }
+  return text;
+}
+
 void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
                 const std::vector<double>& densities, double mark_percent,
                 const Execution& execution) {
@@ -282,8 +302,28 @@ void compare_samples(SampleReport& report, const Execution& execution) {
 std::vector<std::string> sample_lines(const SampleReport& report) {
   std::vector<std::string> lines;
   for (const ReportedSample& one : report.samples) append_sample(one, lines);
-  if (!report.comparison.empty()) append(lines, aligned_lines(comparison_rows(report, false)));
-  if (report.levels) append(lines, aligned_lines(level_rows(*report.levels, false)));
+  append(lines, table_of(comparison_rows(report, is_main)));
+  if (report.levels) append(lines, table_of(level_rows(*report.levels, is_main_level)));
+  return lines;
+}
+
+std::vector<std::string> summary_lines(const SampleReport& report) {
+  std::vector<std::string> lines;
+  for (const ReportedSample& one : report.samples) {
+    lines.push_back(of_grains(one));
+    append(lines, one.sample.notes);
+    const SizeEstimates& sizes = one.statistics.size_by_mass;
+    lines.push_back(capitalised(size_name(one.sample)) + " by mass: D10 " +
+                    with_interval(sizes.d10) + ", D50 " + with_interval(sizes.d50) + ", D90 " +
+                    with_interval(sizes.d90));
+  }
+  if (!report.comparison.empty()) {
+    append(lines, table_of(comparison_rows(report, is_first_read)));
+  } else if (report.levels) {
+    append(lines, table_of(level_rows(*report.levels, is_first_read)));
+  } else {
+    append(lines, table_of(descriptor_rows(report.samples.front(), is_first_read)));
+  }
   return lines;
 }
 

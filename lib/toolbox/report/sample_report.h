@@ -42,8 +42,19 @@ void add_sample(SampleReport& report, const std::string& name, const SampleTable
 /// ...).
 void compare_samples(SampleReport& report, const Execution& execution);
 
-/// Returns lines of at most 80 characters: sizes, the main descriptors, the comparison, the levels.
+/// Returns the whole log: sizes, the main descriptors, the comparison, the levels. Rows of tables
+/// have at most 80 characters.
 std::vector<std::string> sample_lines(const SampleReport& report);
+
+/// Returns the lines that a person reads first: of each sample the grains and the sizes, then one
+/// table: the comparison, else the levels, else the descriptors. At most 11 lines without notes.
+std::vector<std::string> summary_lines(const SampleReport& report);
+
+/// "4.1 (3.9 to 4.4)".
+std::string with_interval(const Estimate& estimate);
+
+/// Returns the name of the size without its definition, and its unit: "sieve size, mm".
+std::string size_name(const GrainSample& sample);
 
 /// Returns all statistics as a JSON document.
 std::string sample_json(const SampleReport& report);

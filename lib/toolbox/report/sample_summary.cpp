@@ -37,16 +37,19 @@ struct Source {
   const char* unit;
   const char* column;
   const char* divisor;  ///< null: none
+  /// A log shows what the remesh changed, and leaves the scans' shape to the page.
+  bool in_log = true;
 };
 constexpr Source sources[] = {
     {"equivalent_radius", "equivalent radius", "length", "input.equivalent_radius", nullptr},
-    {"volume", "volume", "length^3", "descriptors.volume.scan", nullptr},
-    {"aspect_ratio", "aspect ratio S / L", "", "descriptors.aspect_ratio_inertia.scan", nullptr},
+    {"volume", "volume", "length^3", "descriptors.volume.scan", nullptr, false},
+    {"aspect_ratio", "aspect ratio S / L", "", "descriptors.aspect_ratio_inertia.scan", nullptr,
+     false},
     {"elongation", "elongation I / L", "", "descriptors.axis_i_inertia.scan",
-     "descriptors.axis_l_inertia.scan"},
+     "descriptors.axis_l_inertia.scan", false},
     {"flatness", "flatness S / I", "", "descriptors.axis_s_inertia.scan",
-     "descriptors.axis_i_inertia.scan"},
-    {"sphericity", "sphericity (Wadell)", "", "descriptors.sphericity_wadell.scan", nullptr},
+     "descriptors.axis_i_inertia.scan", false},
+    {"sphericity", "sphericity (Wadell)", "", "descriptors.sphericity_wadell.scan", nullptr, false},
     {"volume_error", "error of the volume", "%", "descriptors.volume.error_percent", nullptr},
     {"area_error", "error of the area", "%", "descriptors.area.error_percent", nullptr},
     {"sphericity_error", "error of the sphericity", "%",
@@ -104,6 +107,11 @@ std::string with_unit(const SampleDistribution& one) {
 std::string shown(const SampleDistribution& one, double value, int digits) {
   const bool is_rounding = one.unit == "%" && std::abs(value) < 1e-9;
   return is_rounding ? "exact" : format_number(value, digits);
+}
+
+bool is_in_log(const SampleDistribution& one) {
+  return std::any_of(std::begin(sources), std::end(sources),
+                     [&](const Source& source) { return source.in_log && source.key == one.key; });
 }
 
 std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
@@ -398,10 +406,10 @@ std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_o
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
   std::vector<std::string> lines = {count_line(summary)};
   if (summary.with_warnings > 0) lines.push_back(warned_line(summary));
-  // Columns that fit 80 characters. The files have all columns.
+  // What a person reads first, in 80 columns. The page has all quantities and columns.
   std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
   for (const SampleDistribution& one : summary.distributions) {
-    if (one.values.empty()) continue;
+    if (one.values.empty() || !is_in_log(one)) continue;
     rows.push_back({with_unit(one), shown(one, mean_of(one.values), 3)});
     for (const double share : {0.1, 0.5, 0.9}) {
       rows.back().push_back(shown(one, quantile(one.values, share), 3));

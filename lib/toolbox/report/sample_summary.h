@@ -83,7 +83,8 @@ using FileOfGrain = std::function<std::string(const std::string& grain)>;
 /// no picture.
 std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of = {});
 
-/// Returns lines for a log.
+/// Returns lines for a log: the counts, names of grains with warnings, then size, errors and
+/// quality of the remeshes. At most 10 lines.
 std::vector<std::string> summary_lines(const SampleSummary& summary);
 
 /// Writes the summary as HTML or JSON, by the ending of the name. Throws Error(InvalidInput) for

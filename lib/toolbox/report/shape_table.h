@@ -20,7 +20,7 @@ enum class Described { Both, Scan, Remesh, None, Contacts };
 template <>
 struct EnumerationTable<Described> {
   static constexpr std::string_view key = "describe";
-  static constexpr std::string_view subject = "table of shapes";
+  static constexpr std::string_view subject = "described meshes";
   static constexpr Enumerator<Described> rows[] = {
       {Described::Both, "both", "scan and remesh", "all descriptors of scan and remesh"},
       {Described::Scan, "scan", "scan", "all descriptors of the scan"},

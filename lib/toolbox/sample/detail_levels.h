@@ -37,7 +37,7 @@ struct DetailLevels {
 inline constexpr double usual_mark_percent = 1.0;
 inline constexpr NumberOption<double> mark_option = {
     "max-error",
-    "marked error",
+    "allowed error",
     0.0,
     100.0,
     Ends::NotMinimum,

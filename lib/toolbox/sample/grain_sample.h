@@ -38,7 +38,7 @@ enum class SampledMesh { Scan, Remesh };
 template <>
 struct EnumerationTable<SampledMesh> {
   static constexpr std::string_view key = "describe";
-  static constexpr std::string_view subject = "measured mesh";
+  static constexpr std::string_view subject = "described mesh";
   static constexpr Enumerator<SampledMesh> rows[] = {
       {SampledMesh::Scan, "scan", "scan", "statistics of the scans"},
       {SampledMesh::Remesh, "remesh", "remesh", "statistics of the remeshes"},

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/report/descriptor_report.h"
 
+#include <algorithm>
 #include <initializer_list>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -23,6 +25,10 @@ std::vector<NamedMass> masses(const GrainMeasures& measures) {
   }
   bodies.push_back({measures.grain.name, mass_properties(measures.grain.descriptors.basic)});
   return bodies;
+}
+
+void append(std::vector<std::string>& lines, std::vector<std::string> more) {
+  for (std::string& line : more) lines.push_back(std::move(line));
 }
 
 Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
@@ -56,6 +62,47 @@ Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
   }
   report["warnings"] = remarks(measures);
   return report;
+}
+
+/// Descriptors that a person reads first. The whole log and the files have all.
+constexpr const char* first_read[] = {"volume",
+                                      "area",
+                                      "sphericity_wadell",
+                                      "convexity",
+                                      "zingg_elongation_box",
+                                      "zingg_flatness_box",
+                                      "roundness_wadell"};
+
+/// Returns the rows of a log, all or those that a person reads first.
+template <class Row>
+std::vector<Row> shown_rows(std::vector<Row> rows, bool all) {
+  const auto is_left_out = [](const Row& row) {
+    return std::find(std::begin(first_read), std::end(first_read), row.key) == std::end(first_read);
+  };
+  if (!all) rows.erase(std::remove_if(rows.begin(), rows.end(), is_left_out), rows.end());
+  return rows;
+}
+
+/// Returns the lines of the grains and of the table.
+std::vector<std::string> table_of(const GrainMeasures& measures, bool all) {
+  std::vector<std::string> lines = {"Grain       " + grain_line(measures.grain)};
+  if (measures.reference) {
+    lines.push_back("Reference   " + grain_line(*measures.reference));
+    append(lines,
+           table_lines(shown_rows(compare_descriptors(measures), all), {"reference", "grain"}));
+    return lines;
+  }
+  const std::vector<DescriptorValue> values =
+      shown_rows(list_descriptors(measures.grain.descriptors), all);
+  if (!measures.resolution) {
+    append(lines, table_lines(values));
+    return lines;
+  }
+  lines.push_back("Resolution  " + resolution_sentence(*measures.resolution));
+  Resolution shown = *measures.resolution;
+  shown.rows = shown_rows(std::move(shown.rows), all);
+  append(lines, table_lines(values, shown));
+  return lines;
 }
 
 }  // namespace
@@ -94,22 +141,20 @@ std::vector<std::string> distance_lines(const GrainMeasures& measures) {
 }
 
 std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
-  std::vector<std::string> lines = {"Grain       " + grain_line(measures.grain)};
-  const auto append = [&](std::vector<std::string> more) {
-    for (std::string& line : more) lines.push_back(std::move(line));
-  };
-  if (measures.reference) {
-    lines.push_back("Reference   " + grain_line(*measures.reference));
-    append(table_lines(compare_descriptors(measures),
-                       {measures.reference->name, measures.grain.name}));
-    append(distance_lines(measures));
-  } else if (measures.resolution) {
-    lines.push_back("Resolution  " + resolution_sentence(*measures.resolution));
-    append(table_lines(list_descriptors(measures.grain.descriptors), *measures.resolution));
-  } else {
-    append(table_lines(list_descriptors(measures.grain.descriptors)));
-  }
-  append(aligned_lines(mass_rows(masses(measures))));
+  std::vector<std::string> lines = table_of(measures, true);
+  append(lines, distance_lines(measures));
+  append(lines, aligned_lines(mass_rows(masses(measures))));
+  return lines;
+}
+
+std::vector<std::string> summary_lines(const GrainMeasures& measures) {
+  std::vector<std::string> lines = table_of(measures, false);
+  if (!measures.distances) return lines;
+  const double radius = measures.reference->checked.report.equivalent_radius;
+  const auto percent = [&](double length) { return format_number(100.0 * length / radius, 3); };
+  lines.push_back("Distance    rms " + percent(measures.distances->root_mean_square) +
+                  " %, largest " + percent(measures.distances->largest) +
+                  " % of the equivalent radius " + format_number(radius));
   return lines;
 }
 

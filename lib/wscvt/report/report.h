@@ -37,8 +37,8 @@ std::vector<Sentence> report_warnings(const RemeshResult& result);
 std::vector<std::string> report_lines(const RemeshResult& result);
 
 /// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of
-/// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq), the distances. At
-/// most 80 columns; five lines if nothing was repaired. Without warnings.
+/// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq), the distances. Four lines
+/// if nothing was repaired. Without warnings.
 std::vector<std::string> summary_lines(const RemeshResult& result);
 
 /// Returns one line for the end of a log: "1000 nodes, volume exact, area -0.323 %, rms 0.332 % of
@@ -70,6 +70,10 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
 /// descriptors, the distances. The remarks are separate (see remarks). The decimal sign is a point
 /// in every locale.
 std::vector<std::string> descriptor_lines(const GrainMeasures& measures);
+
+/// Returns the lines that a person reads first: the grain, the main descriptors, the distances. At
+/// most 11 lines.
+std::vector<std::string> summary_lines(const GrainMeasures& measures);
 
 /// Returns the measures as a JSON document (UTF-8, two-space indent, keys in a fixed order).
 /// Numbers that are not finite become null. The origin's source is ignored: the measures name their

@@ -14,21 +14,12 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t summary_width = 80;
 constexpr std::size_t summary_topic_width = 12;
 
-/// Appends a topic and its text, broken at spaces. Further lines are indented as the text.
-void append_topic(std::vector<std::string>& lines, const std::string& topic, std::string text) {
-  std::string begin = topic;
-  begin.resize(summary_topic_width, ' ');
-  while (begin.size() + text.size() > summary_width) {
-    const std::size_t space = text.rfind(' ', summary_width - summary_topic_width);
-    if (space == std::string::npos) break;
-    lines.push_back(begin + text.substr(0, space));
-    text.erase(0, space + 1);
-    begin.assign(summary_topic_width, ' ');
-  }
-  lines.push_back(begin + text);
+/// Appends a topic and its text.
+void append_topic(std::vector<std::string>& lines, const std::string& topic,
+                  const std::string& text) {
+  lines.push_back(topic + std::string(summary_topic_width - topic.size(), ' ') + text);
 }
 
 /// "area -0.323 %" or "volume exact".
