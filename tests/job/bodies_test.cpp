@@ -110,6 +110,7 @@ enum class Walls {
   SharedVertices,  // a closed surface each; common corners are one vertex (VTK's discrete contours)
   Soup,            // as an STL file
   Once,            // the common wall once, in the direction of either (Avizo, DREAM.3D)
+  OnceNamed,       // so, with the labels of both sides
 };
 
 using Labels = std::map<std::array<int, 3>, int>;
@@ -144,6 +145,7 @@ Exported exported(const Labels& labels, Walls walls, std::uint64_t seed) {
   std::map<int, std::map<std::array<int, 3>, std::int32_t>> vertices;
   Exported result;
   NamedFaces names;
+  std::vector<std::int32_t> others;
   std::set<int> known;
   for (const auto& [cube, label] : labels) known.insert(label);
   for (const int label : known) {
@@ -156,22 +158,34 @@ Exported exported(const Labels& labels, Walls walls, std::uint64_t seed) {
         const auto found = labels.find(next);
         const int other = found == labels.end() ? 0 : found->second;
         if (other == label) continue;
-        if (walls == Walls::Once && other > 0 && other < label) continue;
+        const bool is_once = walls == Walls::Once || walls == Walls::OnceNamed;
+        if (is_once && other > 0 && other < label) continue;
         auto& own_vertices = vertices[walls == Walls::OwnVertices ? label : 0];
         const std::size_t before = result.mesh.triangles.size();
         add_square(cube, side / 2, side % 2 == 0 ? 1 : -1, own_vertices, result.mesh);
-        if (walls == Walls::Once && other > 0 && engine() % 2 == 0) {
+        if (is_once && other > 0 && engine() % 2 == 0) {
           for (std::size_t f = before; f < before + 2; ++f) {
             std::swap(result.mesh.triangles[f][1], result.mesh.triangles[f][2]);
           }
         }
         names.of_face.resize(result.mesh.triangles.size(),
                              static_cast<std::int32_t>(names.names.size()) - 1);
+        const auto place =
+            static_cast<std::int32_t>(std::distance(known.begin(), known.find(other)));
+        others.resize(result.mesh.triangles.size(), other == 0 ? -1 : place);
       }
     }
   }
   if (walls == Walls::Soup) result.mesh = test::unwelded(result.mesh);
   if (walls == Walls::OwnVertices) result.names = {names};
+  if (walls == Walls::OnceNamed) {
+    NamedFaces sides{names.names, {}};
+    for (std::size_t f = 0; f < others.size(); ++f) {
+      sides.of_face.insert(sides.of_face.end(), {names.of_face[f], others[f]});
+      if (engine() % 2 == 0) std::swap(sides.of_face[2 * f], sides.of_face[2 * f + 1]);
+    }
+    result.names = {sides};
+  }
   return result;
 }
 
@@ -223,12 +237,13 @@ TEST(Bodies, AreTheLabelsOfSurfacesThatTouch) {
   const std::uint64_t seed = test::announced(11);
   for (const auto& [kind, labels] : touching_labels()) {
     for (const Walls walls :
-         {Walls::OwnVertices, Walls::SharedVertices, Walls::Soup, Walls::Once}) {
+         {Walls::OwnVertices, Walls::SharedVertices, Walls::Soup, Walls::Once, Walls::OnceNamed}) {
       SCOPED_TRACE(kind + ", " + std::to_string(static_cast<int>(walls)));
       // A wall that is there once about a body inside another is that of a pore.
       if (walls == Walls::Once && kind == "inside") continue;
       for (const bool mixed : {false, true}) {
         Exported file = exported(labels, walls, seed);
+        if (mixed && walls == Walls::OnceNamed) continue;
         if (mixed) file = {test::shuffled(file.mesh, seed), {}};
         const MeshBodies bodies = split_bodies(file.mesh, file.names, Execution(2));
         const std::vector<double> volumes = volumes_of(bodies.list);
@@ -236,13 +251,44 @@ TEST(Bodies, AreTheLabelsOfSurfacesThatTouch) {
         ASSERT_EQ(volumes.size(), sizes.size());
         for (std::size_t k = 0; k < sizes.size(); ++k) EXPECT_NEAR(volumes[k], sizes[k], 1e-12);
         for (const MeshBody& body : bodies.list) EXPECT_TRUE(body.is_closed());
-        if (mixed || walls != Walls::OwnVertices) continue;
+        if (mixed || (walls != Walls::OwnVertices && walls != Walls::OnceNamed)) continue;
         for (std::size_t k = 0; k < sizes.size(); ++k) {
           EXPECT_EQ(bodies.list[k].name, "grain_" + std::to_string(k + 1));
         }
       }
     }
   }
+}
+
+// What both sides of a wall are says which of two nested surfaces are bodies.
+TEST(Bodies, OfBothSidesOfWallsHavePoresAndBodiesInThem) {
+  IndexedMesh mesh = test::joined(ball(3.0, {0, 0, 0}), ball(1.0, {1.5, 0, 0}));
+  mesh = test::joined(mesh, inside_out(ball(1.0, {-1.5, 0, 0})));
+  mesh = test::joined(mesh, ball(0.5, {-1.5, 0, 0}));
+  const auto faces = static_cast<std::size_t>(ball(1.0, {0, 0, 0}).triangles.size());
+  // A host, a body that fills a pore of it, and one alone in another.
+  NamedFaces sides{{"host", "filling", "alone"}, {}};
+  for (const auto& [one, other] : {std::pair(-1, 0), {1, 0}, {0, -1}, {-1, 2}}) {
+    for (std::size_t f = 0; f < faces; ++f) {
+      sides.of_face.insert(sides.of_face.end(), {one, other});
+    }
+  }
+  const MeshBodies bodies = split_bodies(mesh, {sides}, Execution(1));
+  EXPECT_TRUE(bodies.warnings.empty());
+  ASSERT_EQ(bodies.list.size(), 3U);
+  const double unit = signed_volume(ball(1.0, {0, 0, 0}));
+  EXPECT_EQ(bodies.list[0].name, "host");
+  EXPECT_EQ(bodies.list[0].pores, 2U);
+  EXPECT_NEAR(bodies.list[0].volume, 27.0 * unit, 1e-9);
+  EXPECT_EQ(bodies.list[1].name, "filling");
+  EXPECT_NEAR(bodies.list[1].volume, unit, 1e-9);
+  EXPECT_EQ(bodies.list[2].name, "alone");
+  EXPECT_NEAR(bodies.list[2].volume, 0.125 * unit, 1e-9);
+  // Numbers of another meaning leave surfaces open, and are not used.
+  for (std::size_t k = 0; k < sides.of_face.size(); ++k) {
+    sides.of_face[k] = static_cast<std::int32_t>((k / 2 + k % 2) % 3);
+  }
+  EXPECT_EQ(split_bodies(mesh, {sides}, Execution(1)).list.size(), 2U);
 }
 
 // Reduced one by one, they share some corners of their wall, and overlap a little.
@@ -440,6 +486,23 @@ TEST(Bodies, AreNamedByTheCoarsestNamesThatTellThemApart) {
   ASSERT_EQ(whole.size(), 1U);
   EXPECT_EQ(whole[0].name, "");
   EXPECT_TRUE(whole[0].is_closed());
+}
+
+TEST(Bodies, ThatOverlapAreTold) {
+  const auto overlaps = [](const IndexedMesh& mesh) {
+    const MeshBodies bodies = split_bodies(mesh, {}, Execution(1));
+    return std::count_if(
+        bodies.warnings.begin(), bodies.warnings.end(),
+        [](const std::string& text) { return text.rfind("Bodies 1 and 2 overlap.", 0) == 0; });
+  };
+  const IndexedMesh one = ball(1.0, {0, 0, 0});
+  EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1.2, 0, 0}))), 1);
+  EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1e-6, 0, 0}))), 1) << "nearly a copy";
+  // Beside each other, in a pore, and walls that cross a little.
+  EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {2.0, 0, 0}))), 0);
+  EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1.99, 0, 0}))), 0);
+  const IndexedMesh shell = test::joined(ball(3.0, {0, 0, 0}), inside_out(ball(2.0, {0, 0, 0})));
+  EXPECT_EQ(overlaps(test::joined(shell, one)), 0);
 }
 
 TEST(Bodies, AreTakenOnce) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <unordered_set>
 #include <utility>
 
@@ -119,6 +120,24 @@ class IslandFinder {
     FaceList all(mesh_.triangles.size());
     std::iota(all.begin(), all.end(), 0);
     descend(all, 0);
+    return std::move(islands_);
+  }
+
+  /// Returns the surface of each name on both sides of walls: all faces with it on one side.
+  /// Returns nothing if most of them are open, because the numbers mean something else.
+  std::vector<Island> run_by_sides(const NamedFaces& sides) {
+    std::vector<FaceList> lists(sides.names.size());
+    for (std::size_t f = 0; f < sides.of_face.size() / 2; ++f) {
+      for (const std::int32_t name : {sides.of_face[2 * f], sides.of_face[2 * f + 1]}) {
+        if (name >= 0) lists[index(name)].push_back(static_cast<std::int32_t>(f));
+      }
+    }
+    std::size_t closed = 0;
+    for (const FaceList& list : lists) {
+      islands_.push_back(island_of(list));
+      if (is_closed(islands_.back(), execution_)) ++closed;
+    }
+    if (2 * closed < islands_.size()) islands_.clear();
     return std::move(islands_);
   }
 
@@ -267,6 +286,7 @@ struct Part {
   bool is_void = false;                   ///< an even number of surfaces lies outside
   bool is_always_solid = false;           ///< its piece has walls between bodies
   bool was_inward = false;                ///< in the file
+  std::int32_t side_name = -1;            ///< of this side of its walls; -1: they have none
   std::vector<std::size_t> holders = {};  ///< closed parts that contain it
 };
 
@@ -281,7 +301,9 @@ class PartFinder {
  public:
   explicit PartFinder(const Execution& execution) : execution_(execution) {}
 
-  void add(const Island& island) {
+  /// `side_name`: see Part.
+  void add(const Island& island, std::int32_t side_name = -1) {
+    side_name_ = side_name;
     const Components components =
         find_components(island.mesh, edge_rings(island.mesh, execution_), execution_);
     std::vector<FaceList> faces(components.list.size());
@@ -329,6 +351,7 @@ class PartFinder {
   void add_part(Part part) {
     part.box = box_of_faces(part.mesh, execution_);
     part.piece = pieces;
+    part.side_name = side_name_;
     parts.push_back(std::move(part));
   }
 
@@ -436,6 +459,7 @@ class PartFinder {
   }
 
   const Execution& execution_;
+  std::int32_t side_name_ = -1;
 };
 
 bool holds(const Box& outer, const Box& inner) {
@@ -479,6 +503,7 @@ std::size_t drop_copies(PartFinder& found) {
   const auto is_copy = [&](const Part& a, const Part& b) {
     if (a.volume == 0.0 || a.mesh.triangles.size() != b.mesh.triangles.size() ||
         a.was_inward != b.was_inward || a.is_void || b.is_void || a.piece == b.piece ||
+        a.side_name != b.side_name ||
         !((a.box.low - b.box.low).norm() <= 1e-9 * (a.box.high - a.box.low).norm())) {
       return false;
     }
@@ -545,7 +570,8 @@ void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
   }
 }
 
-/// Finds for every closed part the parts that contain it.
+/// Finds for every closed part the parts that contain it. Surfaces with different names on their
+/// side of walls do not: each has all walls of its body.
 void find_holders(std::vector<Part>& parts, const Execution& execution) {
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {
     execution.report(static_cast<double>(outer) / static_cast<double>(parts.size()),
@@ -557,7 +583,8 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
     std::unordered_set<std::uint64_t> places;
     for (std::size_t inner = 0; inner < parts.size(); ++inner) {
       const Part& part = parts[inner];
-      if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box)) {
+      if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box) ||
+          part.side_name != holder.side_name) {
         continue;
       }
       // What fills a pore is inside it, though it is as large.
@@ -577,16 +604,16 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
   }
 }
 
-/// Appends points a little below some faces spread over a part, about an edge deep.
-void append_depths(const Part& part, std::vector<Vector3>& points) {
+/// Appends points a little below some faces spread over a surface, about an edge deep.
+void append_depths(const IndexedMesh& mesh, std::vector<Vector3>& points) {
   constexpr std::size_t most_asked = 16;
-  const std::vector<Triangle>& triangles = part.mesh.triangles;
+  const std::vector<Triangle>& triangles = mesh.triangles;
   const std::size_t asked = std::min(triangles.size(), most_asked);
   for (std::size_t k = 0; k < asked; ++k) {
     const Triangle& t = triangles[k * triangles.size() / asked];
-    const Vector3& a = part.mesh.points[index(t[0])];
-    const Vector3& b = part.mesh.points[index(t[1])];
-    const Vector3& c = part.mesh.points[index(t[2])];
+    const Vector3& a = mesh.points[index(t[0])];
+    const Vector3& b = mesh.points[index(t[1])];
+    const Vector3& c = mesh.points[index(t[2])];
     const Vector3 normal = doubled_area_normal(a, b, c);
     const double doubled_area = normal.norm();
     if (!(doubled_area > 0.0)) continue;
@@ -607,6 +634,7 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
     for (std::size_t q = 0; q < parts.size(); ++q) {
       const Part& part = parts[q];
       if (part.volume == 0.0 || part.was_inward || part.piece == pore.piece ||
+          part.side_name != pore.side_name ||
           (part.box.low.array() > pore.box.high.array()).any() ||
           (part.box.high.array() < pore.box.low.array()).any() || contains(part.holders, p) ||
           std::none_of(pore.holders.begin(), pore.holders.end(),
@@ -614,7 +642,7 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
         continue;
       }
       const std::size_t begin = points.size();
-      append_depths(part, points);
+      append_depths(part.mesh, points);
       asked.push_back({q, begin, points.size()});
     }
     count_inside(pore.mesh, points, asked, execution);
@@ -677,7 +705,8 @@ void name_bodies(const std::vector<NamedFaces>& names, const std::vector<FaceLis
 }
 
 /// Step 3 of split_bodies.
-std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>& names) {
+std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>& names,
+                               const NamedFaces& sides) {
   std::vector<Part>& parts = found.parts;
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -698,6 +727,7 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
     const bool is_in_solid = container[p] != none && solid[container[p]] != 0;
     // A surface with a name of its own that looks out of its body is an inclusion, not a pore.
     const bool is_inclusion = is_in_solid && !part.was_inward && !part.is_void &&
+                              part.side_name < 0 &&
                               have_own_names(names, part, parts[container[p]]);
     if (is_inclusion) ++found.inclusions;
     solid[p] =
@@ -720,6 +750,7 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
     body.volume = parts[p].volume;
     body.boundary_edges = parts[p].boundary_edges;
     body.mesh = parts[p].mesh;
+    if (parts[p].side_name >= 0) body.name = sides.names[index(parts[p].side_name)];
     bodies.push_back(std::move(body));
     sources.push_back(parts[p].source);
   }
@@ -740,6 +771,55 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
   return bodies;
 }
 
+std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// Returns a warning on bodies inside of each other in part; empty: there are none. Asks points an
+/// edge below their surfaces: walls that were smoothed one by one cross a little.
+std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution& execution) {
+  constexpr std::size_t fewest = 2;
+  std::vector<Box> boxes;
+  std::vector<std::vector<Vector3>> depths(bodies.size());
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    boxes.push_back(box_of_faces(bodies[k].mesh, execution));
+    if (!bodies[k].is_closed()) continue;
+    std::vector<Vector3> points;
+    append_depths(bodies[k].mesh, points);
+    // A thin body is less than an edge deep.
+    const std::vector<char> inside = are_inside(bodies[k].mesh, points, execution);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (inside[i] != 0) depths[k].push_back(points[i]);
+    }
+  }
+  std::set<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t outer = 0; outer < bodies.size(); ++outer) {
+    if (!bodies[outer].is_closed()) continue;
+    std::vector<AskedPart> asked;
+    std::vector<Vector3> points;
+    for (std::size_t inner = 0; inner < bodies.size(); ++inner) {
+      if (inner == outer || depths[inner].empty() ||
+          (boxes[inner].low.array() > boxes[outer].high.array()).any() ||
+          (boxes[inner].high.array() < boxes[outer].low.array()).any()) {
+        continue;
+      }
+      const std::size_t begin = points.size();
+      points.insert(points.end(), depths[inner].begin(), depths[inner].end());
+      asked.push_back({inner, begin, points.size()});
+    }
+    count_inside(bodies[outer].mesh, points, asked, execution);
+    for (const AskedPart& one : asked) {
+      if (one.inside >= fewest) pairs.insert(std::minmax(outer, one.part));
+    }
+  }
+  if (pairs.empty()) return "";
+  const auto& [first, second] = *pairs.begin();
+  return "Bodies " + std::to_string(first + 1) + " and " + std::to_string(second + 1) + " overlap" +
+         (pairs.size() == 1 ? ""
+                            : ", and " + count_of(pairs.size() - 1, "other pair", "other pairs")) +
+         ". What they have in common counts in both. Check that none is there twice.";
+}
+
 /// Drops faces without a finite position, and their names.
 void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execution& execution) {
   std::vector<char> kept;
@@ -750,16 +830,24 @@ void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execut
   }
   keep_usable_faces(mesh, execution);
   for (NamedFaces& level : names) {
+    const std::size_t width = level.of_face.size() == 2 * kept.size() ? 2 : 1;
     std::size_t count = 0;
-    for (std::size_t f = 0; f < kept.size(); ++f) {
-      if (kept[f] != 0) level.of_face[count++] = level.of_face[f];
+    for (std::size_t k = 0; k < width * kept.size(); ++k) {
+      if (kept[k / width] != 0) level.of_face[count++] = level.of_face[k];
     }
     level.of_face.resize(count);
   }
 }
 
-std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+/// Takes the first names of both sides of walls out of the names, and drops others of this kind.
+NamedFaces take_sides(std::vector<NamedFaces>& names, std::size_t faces) {
+  const auto first = std::stable_partition(
+      names.begin(), names.end(),
+      [&](const NamedFaces& level) { return level.of_face.size() != 2 * faces; });
+  NamedFaces sides;
+  if (first != names.end()) sides = std::move(*first);
+  names.erase(first, names.end());
+  return sides;
 }
 
 }  // namespace
@@ -767,13 +855,17 @@ std::string count_of(std::size_t count, const std::string& one, const std::strin
 MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
                         const Execution& execution) {
   keep_usable(mesh, names, execution);
+  const NamedFaces sides = take_sides(names, mesh.triangles.size());
   IslandFinder finder(mesh, names, execution);
   PartFinder found(execution);
   {
-    std::vector<Island> islands = finder.run();
-    for (Island& island : islands) {
-      found.add(island);
-      island = Island();
+    std::vector<Island> islands = finder.run_by_sides(sides);
+    const bool have_sides = !islands.empty();
+    if (!have_sides) islands = finder.run();
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+      if (islands[k].mesh.triangles.empty()) continue;
+      found.add(islands[k], have_sides ? static_cast<std::int32_t>(k) : -1);
+      islands[k] = Island();
     }
   }
   if (found.parts.empty()) {
@@ -787,7 +879,9 @@ MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
   const std::size_t copies = drop_copies(found);
   find_holders(found.parts, execution);
   fill_pores(found.parts, execution);
-  result.list = assemble(found, names);
+  result.list = assemble(found, names, sides);
+  const std::string overlap = overlap_warning(result.list, execution);
+  if (!overlap.empty()) result.warnings.push_back(overlap);
   if (copies > 0) {
     result.warnings.push_back(count_of(copies, "body is", "bodies are") +
                               " there more than once. Copies were left out.");

@@ -30,6 +30,9 @@ struct MeshBodies {
 
 /// Splits a mesh into bodies. `names` as MeshFile has them, the coarsest first.
 ///
+/// If the names are those of both sides of walls, each name's surface is all faces with it on one
+/// side; a closed surface inside it is a pore, whichever way its faces look. Else:
+///
 /// 1. Faces of one name, and then faces connected through the mesh's own vertices, are a surface of
 ///    their own if they are closed, unless the others are open along them. All others are welded
 ///    together (see weld.h).
