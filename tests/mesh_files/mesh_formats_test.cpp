@@ -95,6 +95,21 @@ std::vector<double> numbers_between(std::string text, const std::string& from,
   return numbers;
 }
 
+TEST_F(MeshFormats, HoldNoPositionThatIsNotFinite) {
+  for (const double lost : {std::nan(""), HUGE_VAL, 1e39}) {
+    IndexedMesh mesh = lumpy_body();
+    mesh.points[3].y() = lost;
+    for (const char* name : {"a.ply", "a.stl", "a.obj", "a.vtu", "a.msh"}) {
+      const bool is_single = std::string(name) == "a.stl";
+      if (lost == 1e39 && !is_single) continue;
+      EXPECT_ERROR(write_mesh(mesh, path(name)), InvalidInput);
+      EXPECT_FALSE(fs::exists(path(name))) << name;
+    }
+    EXPECT_ERROR(write_mesh(mesh, path("a.ply"), PlyCoordinates::Float), InvalidInput);
+    if (lost != 1e39) EXPECT_ERROR(write_mesh(mesh, MeshAttributes(), path("a.ply")), InvalidInput);
+  }
+}
+
 TEST_F(MeshFormats, OfFiniteElementsAreReadBack) {
   for (const char* name : {"a.msh", "a.inp", "a.vtu"}) {
     write_mesh(lumpy_body(), path(name));
@@ -223,6 +238,38 @@ TEST_F(MeshFormats, NameObjectsGroupsAndSolids) {
   EXPECT_EQ(stl.named_faces[0].of_face, (std::vector<std::int32_t>{0, 0, 1}));
   EXPECT_TRUE(read_mesh_file(file("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\no a\nf 1 2 3\n"))
                   .named_faces.empty());
+}
+
+// Two tetrahedra and a face of no group, of which the first has a square cut in two.
+TEST_F(MeshFormats, OfFiniteElementsNameTheirGroups) {
+  const std::string nodes = "1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 0\n";
+  std::string commas = nodes;
+  std::replace(commas.begin(), commas.end(), ' ', ',');
+  const std::vector<std::int32_t> expected = {0, 0, 0, 1, 2};
+  for (const auto& [name, text] :
+       {std::pair(std::string("old.msh"),
+                  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n3 7 \"bulk\"\n"
+                  "2 7 \"a grain\"\n$EndPhysicalNames\n$Nodes\n5\n" +
+                      nodes +
+                      "$EndNodes\n$Elements\n4\n1 3 2 7 1 1 2 5 3\n2 2 2 7 2 1 2 4\n"
+                      "3 2 2 9 3 1 3 4\n4 2 2 0 4 2 3 4\n$EndElements\n"),
+        {"new.msh",
+         "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"a grain\"\n"
+         "$EndPhysicalNames\n$Entities\n1 1 3 0\n1 0 0 0 0\n7 0 0 0 1 0 0 0 2 1 -1\n"
+         "1 0 0 0 1 1 0 1 7 1 7\n2 0 0 0 0 1 1 1 9 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n"
+         "1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 0\n$EndNodes\n"
+         "$Elements\n4 4 1 4\n2 1 3 1\n1 1 2 5 3\n2 1 2 1\n2 1 2 4\n2 2 2 1\n3 1 3 4\n"
+         "2 3 2 1\n4 2 3 4\n$EndElements\n"},
+        {"others.inp", "*Node\n" + commas +
+                           "*Element, type=S4R, elset=a grain\n1,1,2,5,3\n"
+                           "*Element, type=S3, elset=a grain\n2,1,2,4\n"
+                           "*Element, elset=9, type=S3\n3,1,3,4\n*Element, type=S3\n4,2,3,4\n"}}) {
+    SCOPED_TRACE(name);
+    const MeshFile read = read_mesh_file(file(name, text));
+    ASSERT_EQ(read.named_faces.size(), 1U);
+    EXPECT_EQ(read.named_faces[0].names, (std::vector<std::string>{"a grain", "9", ""}));
+    EXPECT_EQ(read.named_faces[0].of_face, expected);
+  }
 }
 
 TEST_F(MeshFormats, ThatWouldFillTheMemoryAreRefused) {
@@ -515,6 +562,26 @@ TEST_F(MeshFormats, ReadLabelsOfFaces) {
     ASSERT_EQ(read.named_faces.size(), 1U);
     EXPECT_EQ(read.named_faces[0].names, (std::vector<std::string>{"7", "-3"}));
     EXPECT_EQ(read.named_faces[0].of_face, expected);
+  }
+  // Two labels a face are those of its sides, below 1 the void.
+  std::string both;
+  for (const char* label :
+       {"0 7", "7 0", "7 -1", "0 7", "7 0", "7 0", "-3 3", "0 3", "3 0", "3 0"}) {
+    both += std::string(label) + " ";
+  }
+  piece.replace(piece.find(array("Name=\"b\"", labels)), array("Name=\"b\"", labels).size(),
+                array("Name=\"b\" NumberOfComponents=\"2\"", both));
+  for (const std::string& path :
+       {file("d.vtp", vtp + piece + "</PolyData></VTKFile>"),
+        file("d.vtk", legacy + "SCALARS s int 2\nLOOKUP_TABLE default\n" + both),
+        file("e.vtk", legacy + "FIELD FieldData 1\nb 2 10 int\n" + both)}) {
+    SCOPED_TRACE(path);
+    const MeshFile read = read_mesh_file(path);
+    ASSERT_EQ(read.named_faces.size(), 1U);
+    EXPECT_EQ(read.named_faces[0].names, (std::vector<std::string>{"7", "3"}));
+    EXPECT_EQ(read.named_faces[0].of_face,
+              (std::vector<std::int32_t>{0, -1, 0,  -1, 0,  -1, -1, 0,  0, -1,
+                                         0, -1, -1, 1,  -1, 1,  1,  -1, 1, -1}));
   }
   // A file whose data are cut off still has its mesh.
   EXPECT_TRUE(read_mesh_file(file("c.vtk", legacy + "SCALARS s float 1\n")).named_faces.empty());

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,13 +33,16 @@ class ElementMesh {
     points_.push_back(point);
   }
 
-  void add_face(const std::vector<std::int64_t>& nodes) {
+  /// `group`: the name of a set that the face is of; empty: none.
+  void add_face(const std::vector<std::int64_t>& nodes, const std::string& group) {
     faces_.insert(faces_.end(), nodes.begin(), nodes.end());
     ends_.push_back(faces_.size());
+    if (groups_.empty() || groups_.back().second != group) groups_.emplace_back(0, group);
+    groups_.back().first = ends_.size();
   }
 
-  /// Nodes may follow the elements that use them.
-  IndexedMesh mesh() {
+  /// Nodes may follow the elements that use them. Appends the names of groups.
+  IndexedMesh mesh(std::vector<NamedFaces>& lists) {
     if (points_.empty()) reader_.fail("holds no nodes" + std::string(export_again));
     if (ends_.empty()) {
       reader_.fail("holds no triangles or quadrilaterals. Save the surface of the grain too.");
@@ -45,8 +50,16 @@ class ElementMesh {
     IndexedMesh mesh;
     mesh.points = std::move(points_);
     std::vector<std::int32_t> corners;
+    FaceNames names;
     std::size_t begin = 0;
-    for (const std::size_t end : ends_) {
+    std::size_t group = 0;
+    if (!groups_.front().second.empty()) names.begin(groups_.front().second);
+    for (std::size_t face = 0; face < ends_.size(); ++face) {
+      const std::size_t end = ends_[face];
+      if (face == groups_[group].first) {
+        names.add_to(mesh.triangles.size());
+        names.begin(groups_[++group].second);
+      }
       corners.clear();
       for (; begin < end; ++begin) {
         const auto found = known_.find(faces_[begin]);
@@ -58,6 +71,8 @@ class ElementMesh {
       }
       add_polygon(corners, mesh.points, mesh.triangles);
     }
+    names.add_to(mesh.triangles.size());
+    names.append_to(lists);
     return mesh;
   }
 
@@ -67,6 +82,8 @@ class ElementMesh {
   std::unordered_map<std::int64_t, std::int32_t> known_;
   std::vector<std::int64_t> faces_;
   std::vector<std::size_t> ends_;
+  /// The number of faces up to the last one of a run of one group, and its name.
+  std::vector<std::pair<std::size_t, std::string>> groups_;
 };
 
 /// Returns the corners of an element of Gmsh by its type; 0 for others than faces.
@@ -85,7 +102,7 @@ class GmshReader {
  public:
   explicit GmshReader(ByteReader& reader) : reader_(reader), mesh_(reader) {}
 
-  IndexedMesh read() {
+  IndexedMesh read(std::vector<NamedFaces>& names) {
     bool has_format = false;
     while (const std::optional<std::string_view> line = reader_.filled_line()) {
       const std::string_view section = trimmed(*line);
@@ -95,16 +112,22 @@ class GmshReader {
       } else if (!has_format) {
         reader_.fail("does not begin with \"$MeshFormat\" and is not a mesh of Gmsh" +
                      std::string(export_again));
+      } else if (section == "$PhysicalNames") {
+        read_group_names();
+      } else if (section == "$Entities") {
+        read_entities();
       } else if (section == "$Nodes") {
         is_old_ ? read_old_nodes() : read_nodes();
       } else if (section == "$Elements") {
         is_old_ ? read_old_elements() : read_elements();
       }
     }
-    return mesh_.mesh();
+    return mesh_.mesh(names);
   }
 
  private:
+  static constexpr std::int64_t surface_ = 2;  // a dimension
+
   TextFields next_fields() {
     const std::optional<std::string_view> line = reader_.filled_line();
     if (!line) reader_.fail("ends within a section. It was cut off" + std::string(export_again));
@@ -140,6 +163,43 @@ class GmshReader {
     if (whole(fields) != 0) reader_.fail("is a binary mesh of Gmsh. Save it as text.");
   }
 
+  void read_group_names() {
+    TextFields counts = next_fields();
+    const std::int64_t count = whole(counts);
+    for (std::int64_t k = 0; k < count; ++k) {
+      TextFields fields = next_fields();
+      const std::int64_t dimension = whole(fields);
+      const std::int64_t group = whole(fields);
+      std::string name(trimmed(fields.rest()));
+      if (name.size() > 1 && name.front() == '"') name = name.substr(1, name.rfind('"') - 1);
+      if (dimension == surface_) group_names_[group] = name;
+    }
+  }
+
+  /// Reads the groups of surfaces. Lines of points and curves come before them.
+  void read_entities() {
+    TextFields counts = next_fields();
+    std::array<std::int64_t, 4> sizes{};
+    for (std::int64_t& size : sizes) size = whole(counts);
+    for (const std::int64_t size : {sizes[0], sizes[1]}) {
+      for (std::int64_t k = 0; k < size; ++k) next_fields();
+    }
+    for (std::int64_t k = 0; k < sizes[2]; ++k) {
+      TextFields fields = next_fields();
+      const std::int64_t surface = whole(fields);
+      point(fields);  // the ends of its box
+      point(fields);
+      if (whole(fields) > 0) group_of_surface_[surface] = whole(fields);
+    }
+  }
+
+  /// Returns the name of a physical group; empty: 0, which is none.
+  std::string name_of(std::int64_t group) const {
+    if (group == 0) return "";
+    const auto found = group_names_.find(group);
+    return found == group_names_.end() ? std::to_string(group) : found->second;
+  }
+
   void read_old_nodes() {
     TextFields counts = next_fields();
     const std::int64_t count = whole(counts);
@@ -171,12 +231,12 @@ class GmshReader {
     }
   }
 
-  void add_element(std::int64_t type, TextFields& fields) {
+  void add_element(std::int64_t type, std::int64_t group, TextFields& fields) {
     const std::size_t corners = corners_of_gmsh(type);
     if (corners == 0) return;
     nodes_.clear();
     for (std::size_t k = 0; k < corners; ++k) nodes_.push_back(whole(fields));
-    mesh_.add_face(nodes_);
+    mesh_.add_face(nodes_, name_of(group));
   }
 
   void read_old_elements() {
@@ -187,8 +247,9 @@ class GmshReader {
       whole(fields);  // its number
       const std::int64_t type = whole(fields);
       const std::int64_t tags = whole(fields);
-      for (std::int64_t tag = 0; tag < tags; ++tag) whole(fields);
-      add_element(type, fields);
+      const std::int64_t group = tags > 0 ? whole(fields) : 0;
+      for (std::int64_t tag = 1; tag < tags; ++tag) whole(fields);
+      add_element(type, group, fields);
     }
   }
 
@@ -197,14 +258,15 @@ class GmshReader {
     const std::int64_t blocks = whole(counts);
     for (std::int64_t block = 0; block < blocks; ++block) {
       TextFields heading = next_fields();
-      whole(heading);  // dimension
-      whole(heading);  // entity
+      const bool is_surface = whole(heading) == surface_;
+      const auto found = group_of_surface_.find(whole(heading));
+      const std::int64_t group = is_surface && found != group_of_surface_.end() ? found->second : 0;
       const std::int64_t type = whole(heading);
       const std::int64_t count = whole(heading);
       for (std::int64_t k = 0; k < count; ++k) {
         TextFields fields = next_fields();
         whole(fields);  // its number
-        add_element(type, fields);
+        add_element(type, group, fields);
       }
     }
   }
@@ -213,6 +275,8 @@ class GmshReader {
   ElementMesh mesh_;
   bool is_old_ = false;
   std::vector<std::int64_t> nodes_;
+  std::map<std::int64_t, std::string> group_names_;
+  std::map<std::int64_t, std::int64_t> group_of_surface_;  ///< the first one
 };
 
 /// Splits a line of Abaqus at its commas.
@@ -248,13 +312,16 @@ std::size_t corners_of_abaqus(const std::string& type) {
 
 }  // namespace
 
-void read_gmsh(ByteReader& reader, MeshFile& file) { file.mesh = GmshReader(reader).read(); }
+void read_gmsh(ByteReader& reader, MeshFile& file) {
+  file.mesh = GmshReader(reader).read(file.named_faces);
+}
 
 void read_abaqus(ByteReader& reader, MeshFile& file) {
   ElementMesh mesh(reader);
   enum class Block { Other, Nodes, Faces, Instance } block = Block::Other;
   bool has_instance = false;
   std::size_t corners = 0;
+  std::string group;
   std::vector<std::int64_t> nodes;
   const auto whole = [&](std::string_view field) {
     const std::optional<std::int64_t> value = whole_number_in(field);
@@ -275,10 +342,14 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
                                        : Block::Other;
       if (block == Block::Instance && std::exchange(has_instance, true)) refuse_instances(reader);
       if (keyword != "*element") continue;
+      group.clear();
       for (const std::string_view field : fields) {
         const std::string option = lower_case(field);
         const std::size_t equals = option.find('=');
-        if (equals == std::string::npos || trimmed(option.substr(0, equals)) != "type") continue;
+        if (equals == std::string::npos) continue;
+        const std::string key(trimmed(std::string_view(option).substr(0, equals)));
+        if (key == "elset") group = trimmed(field.substr(equals + 1));
+        if (key != "type") continue;
         corners =
             corners_of_abaqus(std::string(trimmed(std::string_view(option).substr(equals + 1))));
         if (corners > 0) block = Block::Faces;
@@ -305,10 +376,10 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
       }
       nodes.clear();
       for (std::size_t k = 1; k <= corners; ++k) nodes.push_back(whole(fields[k]));
-      mesh.add_face(nodes);
+      mesh.add_face(nodes, group);
     }
   }
-  file.mesh = mesh.mesh();
+  file.mesh = mesh.mesh(file.named_faces);
 }
 
 }  // namespace wscvt

@@ -117,10 +117,13 @@ class LegacyVtkReader {
   /// need them, so a fault ends the reading.
   void read_labels(const std::vector<std::size_t>& cells, std::vector<NamedFaces>& names) {
     const auto take = [&](const std::vector<double>& values) {
-      if (!is_of_cells_ || values.size() != data_count_) return;
+      const std::size_t width = values.size() == 2 * data_count_ ? 2 : 1;  // of faces, or of sides
+      if (!is_of_cells_ || values.size() != width * data_count_) return;
       std::vector<double> labels;
       for (const std::size_t cell : cells) {
-        if (cell < values.size()) labels.push_back(values[cell]);
+        for (std::size_t k = width * cell; k < width * (cell + 1) && k < values.size(); ++k) {
+          labels.push_back(values[k]);
+        }
       }
       append_labels(labels, mesh_.triangles.size(), names);
     };
@@ -139,9 +142,9 @@ class LegacyVtkReader {
           fields.next();
           const Stored type = type_in(fields);
           const std::string_view components = fields.next();
-          if (!components.empty() && components != "1") return;
+          if (!components.empty() && components != "1" && components != "2") return;
           reader_.filled_line();  // its table of colours
-          take(numbers<double>(type, data_count_));
+          take(numbers<double>(type, components == "2" ? 2 * data_count_ : data_count_));
         } else if (key == "field") {
           fields.next();
           const std::size_t arrays = count_in(fields);

@@ -335,12 +335,19 @@ bool is_mesh_file(const std::string& path) {
   return format != nullptr && format->is_scan;
 }
 
+namespace {
+
+bool is_single(const Format& format, PlyCoordinates coordinates) {
+  return format.write == write_stl ||
+         (format.write == write_ply && coordinates == PlyCoordinates::Float);
+}
+
+}  // namespace
+
 IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
-  const bool is_single = format.write == write_stl ||
-                         (format.write == write_ply && coordinates == PlyCoordinates::Float);
   const bool is_short = format.write == write_by<write_abaqus>;
-  if (!is_single && !is_short) return mesh;
+  if (!is_single(format, coordinates) && !is_short) return mesh;
   for (Vector3& p : mesh.points) {
     for (double& coordinate : p) {
       // Volatile, because GCC 12 optimises the rounding to single precision away.
@@ -351,8 +358,26 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
   return mesh;
 }
 
+namespace {
+
+/// Refuses positions that no reader takes.
+void check_positions(const IndexedMesh& mesh, const std::string& path, bool is_single) {
+  const double largest =
+      is_single ? double{std::numeric_limits<float>::max()} : std::numeric_limits<double>::max();
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (mesh.points[v].allFinite() && mesh.points[v].cwiseAbs().maxCoeff() <= largest) continue;
+    refuse(in_quotes(path) + " cannot store vertex " + std::to_string(v) +
+           ", counted from 0: a coordinate is not finite" +
+           (is_single ? " in single precision. Write doubles, or scale the mesh."
+                      : ". Leave it out, with its faces."));
+  }
+}
+
+}  // namespace
+
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
+  check_positions(mesh, path, is_single(format, coordinates));
   const bool is_stl = format.write == write_stl || format.write == write_by<write_stl_text>;
   if (is_stl && mesh.triangles.empty()) {
     refuse("\"" + path + "\" would be empty: STL has only triangles, and the mesh has none.");
@@ -381,6 +406,7 @@ bool holds_attributes(const std::string& path) {
 void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
                 const std::string& path) {
   if (!holds_attributes(path)) return write_mesh(mesh, path);
+  check_positions(mesh, path, false);
   for (const auto& [all, count] : {std::pair(&attributes.of_vertices, mesh.points.size()),
                                    std::pair(&attributes.of_faces, mesh.triangles.size())}) {
     for (const MeshAttribute& attribute : *all) {

@@ -113,24 +113,36 @@ class FaceNames {
 };
 
 /// Appends the labels of a file's triangles as names, if all are whole numbers, at least two are
-/// different, and each has the faces of a closed surface on the mean.
+/// different, and each has the faces of a closed surface on the mean. Two labels a triangle are
+/// those of its sides, as DREAM.3D and VTK's surface nets have them: they differ, those below 1 are
+/// void, and some are.
 inline void append_labels(const std::vector<double>& labels, std::size_t faces,
                           std::vector<NamedFaces>& lists) {
   constexpr double most = 9007199254740992.0;  // whole in a double
   constexpr std::size_t fewest_faces = 4;
-  if (labels.size() != faces) return;
+  const bool have_sides = faces > 0 && labels.size() == 2 * faces;
+  if (!have_sides && labels.size() != faces) return;
+  bool has_void = false;
   std::map<std::int64_t, std::int32_t> numbers;
   NamedFaces names;
-  for (const double label : labels) {
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const double label = labels[k];
     if (!(std::abs(label) <= most) || std::floor(label) != label) return;
     const auto value = static_cast<std::int64_t>(label);
+    const bool is_other = have_sides && k % 2 == 1;
+    if (is_other && label == labels[k - 1]) return;
+    if (have_sides && value < 1) {
+      has_void = true;
+      names.of_face.push_back(-1);
+      continue;
+    }
     const auto [known, is_new] =
         numbers.emplace(value, static_cast<std::int32_t>(names.names.size()));
     if (is_new) names.names.push_back(std::to_string(value));
-    if (names.names.size() * fewest_faces > faces) return;
+    if (names.names.size() * fewest_faces > labels.size()) return;
     names.of_face.push_back(known->second);
   }
-  if (names.names.size() > 1) lists.push_back(std::move(names));
+  if (names.names.size() > 1 && has_void == have_sides) lists.push_back(std::move(names));
 }
 
 }  // namespace wscvt

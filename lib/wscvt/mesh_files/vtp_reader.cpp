@@ -224,14 +224,17 @@ class VtpReader {
     cells.erase(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(before));
     constexpr std::string_view section = "CellData/";
     for (const auto& [name, array] : piece.arrays) {
-      const bool is_number = value_of(array.attributes, "NumberOfComponents", "1") == "1";
-      if (name.rfind(section, 0) != 0 || !is_number) continue;
+      const std::string components = value_of(array.attributes, "NumberOfComponents", "1");
+      if (name.rfind(section, 0) != 0 || (components != "1" && components != "2")) continue;
+      const std::size_t width = components == "1" ? 1 : 2;  // labels of faces, or of both sides
       std::vector<double>& labels = labels_[name];
-      if (labels.size() != before) continue;
+      if (labels.size() != width * before) continue;
       try {
         const std::vector<double> values = numbers<double>(piece, name);
         for (const std::size_t cell : cells) {
-          if (cell < values.size()) labels.push_back(values[cell]);
+          for (std::size_t k = width * cell; k < width * (cell + 1) && k < values.size(); ++k) {
+            labels.push_back(values[k]);
+          }
         }
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InputOutput) throw;  // else not an array of numbers
