@@ -22,6 +22,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/repair/new_surface.h"
 #include "wscvt/repair/scan_advice.h"
+#include "wscvt/repair/stray_vertex.h"
 #include "wscvt/repair/weld.h"
 
 namespace wscvt {
@@ -751,6 +752,22 @@ TEST(MeshCheck, NamesAStrayVertex) {
   EXPECT_EQ(report.stray_vertex, 300U);
   EXPECT_NEAR(report.stray_distance, 19.0, 0.1);
   EXPECT_EQ(check(sphere(3)).report.stray_distance, 0.0);
+  // Nearer ones too, whether the faces are welded or not, and the number of them.
+  for (const double far : {0.3, 1.5, 3.0, 6.0}) {
+    for (const bool welded : {true, false}) {
+      IndexedMesh ball = sphere(5);
+      for (const std::size_t v : {1000U, 2000U}) ball.points[v] *= far;
+      ball.points[2000] *= 1.01;
+      const MeshCheckReport near = check(welded ? ball : unwelded(ball)).report;
+      EXPECT_EQ(find_stray_vertex(ball).count, 2U) << far;
+      EXPECT_GT(near.stray_distance, 0.0) << far;
+      EXPECT_EQ(near.stray_place, ball.points[far < 1.0 ? 1000 : 2000]) << far;
+    }
+  }
+  // The tips of cones are none.
+  IndexedMesh cone = test::bicone(32);
+  for (Vector3& p : cone.points) p = p.cwiseProduct(Vector3(0.5, 0.5, 2.4));
+  EXPECT_EQ(check(cone).report.stray_distance, 0.0);
   // Slender bodies have none.
   EXPECT_EQ(check(box(1000, 1, 1)).report.stray_distance, 0.0);
 }

@@ -25,6 +25,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/stray_vertex.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
 
@@ -157,6 +158,15 @@ BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execu
     const MeshBody& body = bodies_[k];
     if (body.is_closed() && body.volume >= 0.01 * smallest * largest) taken_.push_back(k);
     (body.is_closed() ? closed : open) += static_cast<double>(body.mesh.triangles.size());
+    const StrayVertex stray = find_stray_vertex(body.mesh);
+    if (stray.count == 0) continue;
+    const Vector3& p = stray.place;  // the body has its own numbers of vertices
+    warnings_.push_back(
+        "A vertex of body " + std::to_string(k + 1) + " lies at (" + format_number(p.x()) + ", " +
+        format_number(p.y()) + ", " + format_number(p.z()) + "), " +
+        format_number(stray.distance, 2) + " from its nearest neighbour" +
+        (stray.count == 1 ? "" : ", and " + std::to_string(stray.count - 1) + " more are like it") +
+        ". Check that it belongs to the body.");
   }
   if (open == 0.0) return;
   left_out_ = open / (open + closed);

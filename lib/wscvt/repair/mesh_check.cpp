@@ -22,6 +22,7 @@
 #include "wscvt/repair/repair_steps.h"
 #include "wscvt/repair/scan_advice.h"
 #include "wscvt/repair/scan_options.h"
+#include "wscvt/repair/stray_vertex.h"
 #include "wscvt/repair/weld.h"
 
 namespace wscvt {
@@ -31,11 +32,6 @@ namespace {
 /// Below this volume / area^1.5 (0.094 for a sphere, a third of the thickness for a plate) the
 /// surface is flat within rounding.
 constexpr double flat_limit = 1e-9;
-
-/// A vertex farther than this from all its neighbours, in medians of the distance of the mesh's
-/// vertices from their middle, is reported. 1 for a ball; 10 for the tip of a cone 5 times as high
-/// as wide whose side has no other vertex.
-constexpr double stray_distance = 5.0;
 
 /// Returns "1 face", "2 faces".
 std::string count_of(std::size_t count, const std::string& noun) {
@@ -182,60 +178,15 @@ void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, d
 
 /// Refuses a mesh in which a vertex lies so far from all its neighbours that it is a fault of the
 /// scan; reports nearer ones. Before points are welded, because the tolerance grows with the box.
-void find_stray_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
-  constexpr double farthest = 30.0;  // medians of the distance from the middle
-  constexpr std::size_t most_asked = 3000;
-  const std::size_t stride = 1 + mesh.triangles.size() / most_asked;
-  std::array<std::vector<double>, 3> coordinates;
-  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      coordinates[k].push_back(
-          mesh.points[index(mesh.triangles[f][f % 3])][static_cast<Eigen::Index>(k)]);
-    }
-  }
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
-  const Vector3 middle(median(coordinates[0]), median(coordinates[1]), median(coordinates[2]));
-  std::vector<double> distances;
-  for (std::size_t f = 0; f < mesh.triangles.size(); f += stride) {
-    distances.push_back((mesh.points[index(mesh.triangles[f][f % 3])] - middle).norm());
-  }
-  const double usual = median(distances);
-  const auto to = [&](std::int32_t v, std::int32_t w) {
-    return (mesh.points[index(v)] - mesh.points[index(w)]).squaredNorm();
-  };
-  const double least = stray_distance * usual;
-  std::vector<std::int32_t> far;  // vertices of faces on which they lie far from the others
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double nearest = std::min(to(t[k], t[following(k)]), to(t[k], t[preceding(k)]));
-      if (nearest > least * least) far.push_back(t[k]);
-    }
-  }
-  if (far.empty() || !(usual > 0.0)) return;
-  std::sort(far.begin(), far.end());
-  std::vector<double> shortest(far.size(), std::numeric_limits<double>::infinity());
-  for (const Triangle& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = std::lower_bound(far.begin(), far.end(), t[k]);
-      if (at == far.end() || *at != t[k]) continue;
-      double& known = shortest[static_cast<std::size_t>(at - far.begin())];
-      known = std::min({known, to(t[k], t[following(k)]), to(t[k], t[preceding(k)])});
-    }
-  }
-  for (std::size_t i = 0; i < far.size(); ++i) {
-    const double distance = std::sqrt(shortest[i]);
-    if (std::isinf(distance) || !(distance > std::max(least, report.stray_distance))) continue;
-    report.stray_distance = distance;
-    report.stray_vertex = index(far[i]);
-    report.stray_place = mesh.points[index(far[i])];
-  }
-  if (!(report.stray_distance > farthest * usual)) return;
+void refuse_far_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
+  constexpr double farthest = 30.0;
+  const StrayVertex stray = find_stray_vertex(mesh);
+  report.stray_distance = stray.distance;
+  report.stray_vertex = stray.vertex;
+  report.stray_place = stray.place;
+  if (!(stray.distance > farthest * stray.usual)) return;
   refuse(stray_vertex_sentence(report) + " The rest of the mesh is about " +
-         format_number(2.0 * usual, 2) +
+         format_number(2.0 * stray.usual, 2) +
          " across. Correct this vertex, or remove it and its faces.");
 }
 
@@ -375,7 +326,7 @@ namespace {
 /// of the mesh's box.
 double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
             MeshCheckReport& report) {
-  find_stray_vertex(mesh, report);
+  refuse_far_vertex(mesh, report);
   const Box box = box_of_faces(mesh, execution);
   check_scan_size(box.high - box.low);
   const double diagonal = (box.high - box.low).norm();
