@@ -170,7 +170,7 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   job.make = [&, make = job.make](GrainAtWork& grain) {
     const JobFolder& place = grain.folders.front();
     const std::vector<std::string> rows = make(grain);
-    write_file(place.file_of(grain.name, {"tables", "csv"}), grain.name);
+    write_file(place.file_of(grain.name, {"tables", "csv"}), grain.name + "\n");
     return rows;
   };
   run_job(job, grains, {1});
@@ -180,7 +180,13 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   fs::remove(more + "/grain8.csv");
   run_job(job, grains, {1});
   EXPECT_EQ(made, 2) << "from grain 8 on";
-  EXPECT_EQ(content("more/tables/grain8.csv"), "folder/grain8.ply");
+  EXPECT_EQ(content("more/tables/grain8.csv"), "folder/grain8.ply\n");
+  // A text that is cut, as by a full disk.
+  write_file(more + "/grain6.csv", "folder/gra");
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 4) << "from grain 6 on";
+  EXPECT_EQ(content("more/tables/grain6.csv"), "folder/grain6.ply\n");
 }
 
 TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {

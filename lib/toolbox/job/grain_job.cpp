@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -141,6 +142,18 @@ fs::file_time_type time_of(const std::string& scan) {
   return time;
 }
 
+/// Whether a text is cut, as by a full disk: those that a job writes end with a line.
+bool is_cut(const std::string& path) {
+  constexpr std::string_view texts[] = {".csv", ".vtp", ".shp", ".json", ".vti", ".obj",
+                                        ".off", ".vtk", ".vtu", ".msh",  ".inp"};
+  if (std::find(std::begin(texts), std::end(texts), ending_of(path)) == std::end(texts)) {
+    return false;
+  }
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  file.seekg(-1, std::ios::end);
+  return file.get() != '\n';
+}
+
 /// The grains of a source and when their scans were written.
 class ScanTimes {
  public:
@@ -271,8 +284,8 @@ class JobTables {
  public:
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed job
   /// may have added a row to only some of them. With `scans`, also cuts them at the first grain
-  /// one of whose files is missing, empty or older than its scan, so that it is made again. A grain
-  /// that failed has no file: its table tells the time.
+  /// one of whose files is missing, empty, cut or older than its scan, so that it is made again. A
+  /// grain that failed has no file: its table tells the time.
   JobTables(const std::vector<JobFolder>& folders, const GrainJob& job,
             const std::vector<std::string>& grains, const ScanTimes* scans)
       : rows_(grains.size()) {
@@ -289,14 +302,17 @@ class JobTables {
       }
     }
     for (std::size_t k = 0; scans != nullptr && k < rows_; ++k) {
+      const auto is_lost = [&](const std::string& file) {
+        return scans->is_old(k, file) || is_cut(file);
+      };
       const bool is_old =
           tables_.front()->is_failed(k)
               ? is_old_failure[k]
               : std::any_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
-                  return scans->is_old(k, folder.file_of(grains[k])) ||
+                  return is_lost(folder.file_of(grains[k])) ||
                          std::any_of(job.more_files.begin(), job.more_files.end(),
                                      [&](const JobFiles& files) {
-                                       return scans->is_old(k, folder.file_of(grains[k], files));
+                                       return is_lost(folder.file_of(grains[k], files));
                                      });
                 });
       if (is_old) rows_ = k;
