@@ -68,6 +68,21 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
   EXPECT_NE(all.find("\n1 grain"), std::string::npos) << all;
 }
 
+TEST_F(Segment, ReplacesNoPageOfItsUser) {
+  test::write_bytes(folder_ / "labels.html", "<html><title>My notes</title></html>");
+  const Outcome refused = run("segment scan.nrrd labels.nrrd -q");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.errors.find("\"labels.html\" would be replaced"), std::string::npos)
+      << refused.errors;
+  EXPECT_NE(content("labels.html").find("My notes"), std::string::npos);
+  EXPECT_FALSE(exists("labels.nrrd"));
+  // As it advises. Its own page is replaced.
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_EQ(run("segment scan.nrrd labels.nrrd -q --report page.html").exit_code, 0);
+    EXPECT_EQ(run("segment scan.nrrd others.nrrd -q").exit_code, 0);
+  }
+}
+
 TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   const Outcome whole = run("extract mask.nrrd whole");
   EXPECT_EQ(whole.exit_code, 3);

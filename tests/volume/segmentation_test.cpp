@@ -485,6 +485,7 @@ TEST_F(SegmentationOfFourBalls, ALayerAtTheSurfaceIsToldAndTheAdviceWorks) {
   EXPECT_NEAR(cores.steps[0].layer, 44.0 + layer, 10.0);
   EXPECT_NEAR(cores.steps[0].inside, 44.0 + 190.0, 10.0);
   EXPECT_NE(looks(cores).find("in two steps"), std::string::npos) << looks(cores);
+  EXPECT_EQ(looks(cores).find("several minerals"), std::string::npos) << looks(cores);
   SegmentationOptions options;
   options.threshold = 0.5 * (cores.steps[0].space + cores.steps[0].layer);
   const std::vector<double> whole = volumes(segmented(options));
@@ -579,15 +580,14 @@ TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
   Segmentation found;
   found.voxels = 10000;
   found.material = 1500;
-  found.film_voxels = 500;
   found.peaks = {40.0, 180.0};
-  found.film = 110.0;
+  found.steps = {{40.0, 110.0, 180.0, 0.0, 1.0}};
   bool is_told = false;
   for (const Sentence& doubt : doubts_of(found)) {
     const std::string text = doubt.text();
-    is_told = is_told || (text.find("as of a film") != std::string::npos &&
-                          text.find("about 50 % too large") != std::string::npos &&
-                          text.find("--threshold 145") != std::string::npos);
+    is_told = is_told || (text.find("a layer less than 2 voxels thick") != std::string::npos &&
+                          text.find("--threshold 75;") != std::string::npos &&
+                          text.find("--threshold 145.") != std::string::npos);
   }
   EXPECT_TRUE(is_told);
 }

@@ -86,6 +86,14 @@ int run(const SegmentArguments& arguments) {
     if (report_format(page) != ReportFormat::Page) {
       refuse("\"" + page + "\" is no name for a page. Give a name that ends in .html.");
     }
+    // Nobody gave this name, so the file may be anything.
+    if (arguments.page.empty() && std::filesystem::is_regular_file(page) &&
+        !is_segmentation_page(page)) {
+      refuse(
+          "\"" + page +
+          "\" would be replaced by the page, and no earlier wscvt segment wrote it. Give another "
+          "name by --report, or for the labels.");
+    }
     check_output_paths({{"the scan", arguments.scan}},
                        {{"the labels", arguments.labels}, {"the page", page}});
     return open_volume(arguments.scan, arguments.choice);

@@ -329,26 +329,23 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
   }
 }
 
-/// Measures what moves the surfaces of grains: blur, and a film around them.
-void measure_edges(const ShortGrey& scan, const std::vector<std::uint8_t>& outside,
-                   const VoxelCounts& sizes, const GreyCounts& counts,
-                   const std::vector<GreyPeak>& peaks, Segmentation& result) {
+/// Measures the blur. Returns the steps of a layer that is too thin for profiles, if there is one.
+std::vector<EdgeSteps> measure_edges(const ShortGrey& scan,
+                                     const std::vector<std::uint8_t>& outside,
+                                     const VoxelCounts& sizes, const GreyCounts& counts,
+                                     const std::vector<GreyPeak>& peaks, Segmentation& result) {
   const double level = (result.threshold - scan.base) / scan.step;
   // Soft grains have no peak of their own among all voxels.
   const double contrast = peaks.size() == 2 ? static_cast<double>(peaks[1].value - peaks[0].value)
                                             : contrast_at(counts.all, level);
   result.blur = blur_at(scan.grey, outside, sizes, {level, contrast, false, 1});
-  if (peaks.size() == 2) {
-    const std::optional<double> film = film_between(counts.all, level, contrast);
-    if (film) {
-      result.film = scan.base + scan.step * *film;
-      const double near = 0.3 * contrast;
-      for (std::size_t k = 0; k < counts.all.size(); ++k) {
-        const double beyond = (static_cast<double>(k) - level) * (result.is_dark ? -1.0 : 1.0);
-        if (beyond >= 0.0 && beyond <= near) result.film_voxels += counts.all[k];
-      }
-    }
-  }
+  if (peaks.size() != 2) return {};
+  const std::optional<double> film = film_between(counts.all, level, contrast);
+  if (!film) return {};
+  auto space = static_cast<double>(peaks[0].value);
+  auto inside = static_cast<double>(peaks[1].value);
+  if (result.is_dark) std::swap(space, inside);
+  return {{space, *film, inside, 0.0, 1.0}};
 }
 
 /// Edge of a cube with the volume of a voxel; a length.
@@ -462,7 +459,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     result.is_flat =
         !are_phases(grey, scan.geometry(), smoothed, options, execution.part(0.5, 0.55));
   }
-  measure_edges(values, left_out, sizes, counts, peaks, result);
+  const std::vector<EdgeSteps> thin = measure_edges(values, left_out, sizes, counts, peaks, result);
   const std::optional<Phases> phases =
       phases_of(peaks, (result.threshold - base) / step, options.dark);
   if (!phases) return mask;
@@ -479,6 +476,11 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       result.steps, execution.part(0.55, 1.0));
+  constexpr double few = 0.1;  // of the surface
+  const bool has_layer =
+      std::any_of(result.steps.begin(), result.steps.end(),
+                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.fraction >= few; });
+  if (!has_layer) result.steps.insert(result.steps.end(), thin.begin(), thin.end());
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;
   }

@@ -72,10 +72,6 @@ struct Segmentation {
   double threshold = 0.0;           ///< as used
   std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
   double blur = 0.0;                ///< of the edges at the threshold, a standard deviation, voxels
-  /// Grey value of a film between grains and void, see film_between; empty: there is none.
-  std::optional<double> film;
-  /// Voxels of the film that count as material, an estimate.
-  std::uint64_t film_voxels = 0;
   /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
   std::vector<EdgeSteps> steps;
   int medians = 1;                ///< so often the grey values were smoothed; more for noise

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <string>
 #include <utility>
 
 #include "toolbox/report/sample_summary.h"
@@ -18,6 +20,8 @@
 namespace wscvt {
 
 namespace {
+
+constexpr const char* page_title = "Grains of a scan: ";
 
 /// A slice across an axis: grey values and labels, rows along `down`.
 struct ShownSlice {
@@ -181,9 +185,12 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
   for (const EdgeSteps& steps : segmentation.steps) {
     constexpr double few = 0.1;
     if (steps.fraction < few) continue;
-    const std::string layer = "a layer about " + format_number(steps.thickness, 2) +
-                              " voxels thick at the surface of " + format_percent(steps.fraction) +
-                              " of the grains is near " + format_number(steps.layer, 4);
+    const std::string layer =
+        (steps.thickness == 0.0 ? "a layer less than 2 voxels thick"
+                                : "a layer about " + format_number(steps.thickness, 2) +
+                                      " voxels thick at the surface of " +
+                                      format_percent(steps.fraction) + " of the grains") +
+        " is near " + format_number(steps.layer, 4);
     const std::string values = ", the void near " + format_number(steps.space, 4) +
                                " and the inside near " + format_number(steps.inside, 4);
     const auto between = [](double a, double b) {
@@ -191,13 +198,19 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
     };
     if (steps.goes_on()) {
       goes_on = true;
+      // Another peak is the layer's, and counts as material.
+      const bool is_outer = steps.thickness > 0.0 && segmentation.peaks.size() > 2 &&
+                            (segmentation.threshold < steps.layer) != segmentation.is_dark;
       doubts.push_back(
           "Grey values change in two steps from the void to the inside of grains: " + layer +
           values +
           ". It may be a film of water, which is no grain, or the outer part of grains with a coat "
-          "or a dense core. The outlines may lie on either step or between them. For grains with "
-          "the layer, segment once more by " +
-          between(steps.space, steps.layer) + "; for grains without it, by " +
+          "or a dense core. " +
+          (is_outer ? "The outlines are at the outer step. If the layer is no grain, segment once "
+                      "more by "
+                    : "The outlines may lie on either step or between them. For grains with the "
+                      "layer, segment once more by " +
+                          between(steps.space, steps.layer) + "; for grains without it, by ") +
           between(steps.layer, steps.inside) + ".");
     } else {
       doubts.push_back("Grains differ more from the void at their surface than inside: " + layer +
@@ -211,25 +224,31 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
   return goes_on;
 }
 
+/// Whether the layers of most grains, and what is below them, are all peaks but the void's: these
+/// grains are no minerals.
+bool are_of_layers(const Segmentation& segmentation) {
+  const std::vector<double>& peaks = segmentation.peaks;
+  if (peaks.size() < 3) return false;
+  const double near = 0.15 * (peaks.back() - peaks.front());
+  constexpr double most = 0.5;
+  return std::all_of(peaks.begin(), peaks.end(), [&](double peak) {
+    return std::any_of(segmentation.steps.begin(), segmentation.steps.end(),
+                       [&](const EdgeSteps& steps) {
+                         if (steps.fraction < most || steps.thickness == 0.0) return false;
+                         const double nearest =
+                             std::min({std::abs(peak - steps.space), std::abs(peak - steps.layer),
+                                       std::abs(peak - steps.inside)});
+                         return nearest <= near;
+                       });
+  });
+}
+
 /// Adds how much too large or too small grains come out.
 void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
-  // A layer says more of the edges than the histogram and the blur.
+  // A layer says more of the edges than the blur.
   if (add_steps(segmentation, doubts)) return;
   const double radius = median_radius(segmentation);
   constexpr double small = 0.05;
-  if (segmentation.film && segmentation.material > 2 * segmentation.film_voxels) {
-    const double grain =
-        segmentation.is_dark ? segmentation.peaks.front() : segmentation.peaks.back();
-    const double share =
-        share_of(segmentation.film_voxels, segmentation.material - segmentation.film_voxels);
-    doubts.push_back(
-        "Many voxels between grains and void are near " + format_number(*segmentation.film, 4) +
-        ", as of a film of water around the grains: grains come out about " +
-        std::to_string(std::llround(100.0 * share)) +
-        " % too large. For grains without the film, segment once more by " +
-        mention("threshold", format_number(0.5 * (*segmentation.film + grain), 4)) + ".");
-    return;
-  }
   // What is not corrected moves the surface by its variance over the radius.
   const double rest = segmentation.blur * segmentation.blur - largest_blur * largest_blur;
   const double loss = radius > 0.0 ? 3.0 * rest / (radius * radius) : 0.0;
@@ -284,8 +303,11 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                           ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
                           : "darker than the rest. Give " + mention("dark", "true") + "."));
   }
-  // Who chose the material has seen the peaks. Of inverted grains they are not the grains'.
-  const std::size_t peaks = segmentation.is_chosen || is_inverted ? 0 : segmentation.peaks.size();
+  // Who chose the material has seen the peaks. Of inverted grains they are not the grains', and
+  // of layers more is told.
+  const std::size_t peaks = segmentation.is_chosen || is_inverted || are_of_layers(segmentation)
+                                ? 0
+                                : segmentation.peaks.size();
   if (peaks == 1) {
     doubts.push_back("The grey values have one peak, at " +
                      format_number(segmentation.peaks[0], 4) +
@@ -308,7 +330,7 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
                      mention("phases", "1") + ".");
   }
-  add_biases(segmentation, doubts);
+  if (!is_inverted) add_biases(segmentation, doubts);
   if (segmentation.medians > 1) {
     doubts.push_back("The noise is strong: the grey values were smoothed " +
                      std::to_string(segmentation.medians) +
@@ -383,10 +405,17 @@ OutlinedSlices outlined_slices(LabelVolume& scan, const Segmentation& segmentati
   return result;
 }
 
+bool is_segmentation_page(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(512, '\0');  // more than comes before the title
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find(std::string("<title>") + page_title) != std::string::npos;
+}
+
 std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentation,
                               const ReportOrigin& origin, const Execution& execution) {
   const VolumeGeometry& geometry = scan.geometry();
-  HtmlDocument page("Grains of a scan: " + std::to_string(segmentation.grains.size()));
+  HtmlDocument page(page_title + std::to_string(segmentation.grains.size()));
   page.add_paragraph(origin_sentence(origin));
   for (const Sentence& doubt : doubts_of(segmentation)) page.add_warning(doubt);
   const OutlinedSlices slices = outlined_slices(scan, segmentation, execution);

@@ -32,6 +32,9 @@ struct OutlinedSlices {
 OutlinedSlices outlined_slices(LabelVolume& scan, const Segmentation& segmentation,
                                const Execution& execution);
 
+/// Whether a file is a page of segmentation_html.
+bool is_segmentation_page(const std::string& path);
+
 /// Returns an HTML page for checking a segmentation: the slices, the lines, the sizes of the
 /// grains.
 std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentation,
