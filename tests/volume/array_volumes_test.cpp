@@ -220,6 +220,7 @@ struct Nifti {
   double slope = 0.0;
   double more = 0.0;  ///< added to a scaled voxel
   int sform = 1;
+  bool has_sizes = true;
 
   std::string bytes() const {
     std::string head(version == 1 ? 348 : 540, '\0');
@@ -251,7 +252,7 @@ struct Nifti {
     put(version == 1 ? 72 : 14, 2, static_cast<std::uint64_t>(bits));
     const std::size_t sizes = version == 1 ? 76 : 104;
     const double pixdim[8] = {1.0, 0.5, 0.25, 2.0, 1.0, 1.0, 1.0, 1.0};
-    for (std::size_t k = 0; k < 8; ++k) put_real(sizes + k * real, pixdim[k]);
+    for (std::size_t k = 0; k < 8; ++k) put_real(sizes + k * real, has_sizes ? pixdim[k] : 0.0);
     if (version == 1) {
       put_real(108, 352.0);
     } else {
@@ -299,6 +300,11 @@ TEST_F(ArrayVolumes, ReadsNifti) {
       nifti.sform = 0;
       write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
       EXPECT_NEAR(geometry("a.nii").voxel_volume(), 0.25, 1e-12);
+      nifti.has_sizes = false;
+      write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
+      EXPECT_FALSE(geometry("a.nii").has_size);
+      EXPECT_EQ(geometry("a.nii").unit, "");
+      nifti.has_sizes = true;
       nifti.dimensions = {4, 7, 5, 3, 2};
       const std::string first = made_.bytes<std::uint16_t>(big);
       MadeVolume more = made_;

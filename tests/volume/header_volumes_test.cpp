@@ -263,6 +263,18 @@ TEST_F(HeaderVolumes, RefusesLengthsOfVoxelsThatAreNotAboveZero) {
       expect_made(name, size);
     }
   }
+  // Directions that are not perpendicular are honoured and told.
+  write("a.nrrd", nrrd("encoding: raw\nspace dimension: 3\nspace directions: (1,0,0) (0.5,1,0) "
+                       "(0,0,2)\n\n") +
+                      bytes);
+  const auto warnings_with = [&](VolumeChoice choice) {
+    return open_volume(path("a.nrrd"), choice)->warnings();
+  };
+  ASSERT_EQ(warnings_with({}).size(), 1U);
+  EXPECT_NE(warnings_with({})[0].text().find("not perpendicular"), std::string::npos);
+  VolumeChoice advised;
+  advised.voxel_size = Vector3(1, 1, 2);
+  EXPECT_TRUE(warnings_with(advised).empty());
   // A direction may be backwards.
   write("a.nrrd", nrrd("encoding: raw\nspace dimension: 3\nspace directions: (-1,0,0) (0,1,0) "
                        "(0,0,-2)\n\n") +

@@ -65,8 +65,8 @@ std::int64_t number_at(const std::string& head, std::size_t place, std::size_t s
 }
 
 /// Refuses headers that libnifti2 would refuse, because it always prints this to the standard
-/// error.
-void check_header(const std::string& path) {
+/// error. Returns whether its voxels have lengths: the library replaces 0 by 1.
+bool check_header(const std::string& path) {
   std::unique_ptr<ByteSource> bytes = file_bytes(path, 0);
   if (ending_of(path) == ".gz") bytes = inflated_bytes(std::move(bytes), path);
   std::string head(540, '\0');
@@ -89,7 +89,16 @@ void check_header(const std::string& path) {
         refuse_volume(path, "has a NIfTI header with dimensions below 1. Export it again.");
       }
     }
-    return;
+    const std::size_t length = is_first ? 4 : 8;
+    const std::size_t lengths = is_first ? 76 : 104;
+    bool have_lengths = true;
+    for (std::size_t k = 1; k <= 3; ++k) {
+      // Twice the bits of -0 and 0 are 0.
+      const auto bits =
+          static_cast<std::uint64_t>(number_at(head, lengths + k * length, length, big));
+      have_lengths = have_lengths && bits << (65 - 8 * length) != 0;
+    }
+    return have_lengths;
   }
   refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
 }
@@ -115,10 +124,9 @@ std::string unit_of_code(int code) {
   return code == NIFTI_UNITS_MICRON ? "um" : "";
 }
 
-void set_geometry(const nifti_image& image, const VolumeChoice& choice, const std::string& path,
-                  VolumeGeometry& geometry) {
+void set_geometry(const nifti_image& image, bool have_lengths, const VolumeChoice& choice,
+                  const std::string& path, VolumeGeometry& geometry) {
   geometry.counts = voxel_counts({image.nx, image.ny, image.nz}, path);
-  geometry.unit = unit_of_code(image.xyz_units);
   // sform, qform, or only the sizes, in this order of preference.
   Eigen::Matrix3d axes = Vector3(image.dx, image.dy, image.dz).asDiagonal();
   Vector3 origin = Vector3::Zero();
@@ -129,7 +137,8 @@ void set_geometry(const nifti_image& image, const VolumeChoice& choice, const st
       origin[row] = placed.m[row][3];
     }
   }
-  geometry.has_size = true;
+  geometry.has_size = have_lengths || image.sform_code > 0;
+  if (geometry.has_size) geometry.unit = unit_of_code(image.xyz_units);
   set_lattice(geometry, axes, origin, choice, path);
 }
 
@@ -176,13 +185,13 @@ void apply_scale(const nifti_image& image, const std::string& path, LabelVolume&
 
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice& choice) {
   refuse_array_choice(choice, path);
-  check_header(path);
+  const bool have_lengths = check_header(path);
   const NiftiImage image = header_of(path);
   if (image->nifti_type != NIFTI_FTYPE_NIFTI1_1 && image->nifti_type != NIFTI_FTYPE_NIFTI2_1) {
     refuse_volume(path, "is not a NIfTI file of one part. Save it as .nii or .nii.gz.");
   }
   VolumeGeometry geometry;
-  set_geometry(*image, choice, path, geometry);
+  set_geometry(*image, have_lengths, choice, path, geometry);
   VoxelType type = type_of(image->datatype, path);
   constexpr int msb_first = 2;  // the library does not export its name for it
   type.big_endian = image->byteorder == msb_first;

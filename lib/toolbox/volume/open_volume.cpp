@@ -224,6 +224,14 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
                                                          : Sentence(geometry.size_source);
   volume.describe(counts + " voxels of " + sizes + (geometry.unit.empty() ? "" : " ") +
                   geometry.unit + ", from " + source + ".");
+  const double oblique = std::abs(geometry.voxel_volume()) / lengths.prod();
+  constexpr double square = 0.999;  // 2.5 degrees
+  if (oblique < square) {
+    volume.add_warning("The axes of the voxels are not perpendicular, from " + source +
+                       ": the grains are sheared with them, but wscvt segment takes them for "
+                       "perpendicular. If this is wrong, give the lengths by " +
+                       mention("voxel-size", "X,Y,Z") + ".");
+  }
   constexpr double longest = 5.0;
   const double ratio = lengths.maxCoeff() / lengths.minCoeff();
   if (ratio <= longest) return;
