@@ -158,6 +158,19 @@ TEST_F(GrainTableTest, RefusesValuesThatNoGrainHas) {
   EXPECT_EQ(read("grain,volume,curl\na,1,-2\nb,,3\n").values(0, 1), -2.0);
 }
 
+// Below the grains, ImageJ and spreadsheets write such rows, which were counted as grains.
+TEST_F(GrainTableTest, RefusesRowsThatSumUpOthers) {
+  for (const char* word : {"Total", "mean", " SD ", "Min", "Grand Total"}) {
+    for (const std::string& row :
+         {std::string(word) + ",,3\n", "3," + std::string(word) + ",3\n"}) {
+      const std::string sentence = refusal("id,label,volume\n1,a,1\n2,b,2\n" + row);
+      EXPECT_NE(sentence.find("line 4: the row has"), std::string::npos) << row << sentence;
+    }
+  }
+  EXPECT_EQ(read("id,label,volume\nMaximus,total sand,1\nb,x,2\n").grains.size(), 2U);
+  EXPECT_NE(refusal("# made by\nid,volume\n1,2\n").find("delete the comments"), std::string::npos);
+}
+
 TEST_F(GrainTableTest, ReadsWhatSpreadsheetsWrite) {
   const std::string comma = "grain,size [mm],note\r\na,1.5,x\r\nb,-2e-1,y";
   for (const char* other : {"\xEF\xBB\xBFgrain;size [mm];note\r\na;1,5;x\r\nb;-2e-1;y\r\n",

@@ -127,8 +127,9 @@ std::string sizes_in(const GrainSample& sample) {
   }
   if (table.columns.size() > most) names += ", ...";
   refuse("The table has no column \"" + column +
-         "\" for the size of the grains. Rename a column, or choose another size: " +
-         keys_of<SizeMeasure>() + ". Its numeric columns: " + names + ".");
+         "\" for the size of the grains, and no other size. Name the column of diameters "
+         "\"equivalent_diameter\", or that of volumes \"volume\", and give " +
+         mention("diameter", "equivalent-diameter") + ". Its numeric columns: " + names + ".");
 }
 
 /// Returns the mass of a grain from its row and volume.

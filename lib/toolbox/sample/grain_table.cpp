@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <regex>
 #include <unordered_set>
@@ -94,6 +95,7 @@ class TableReader {
   void read_heading(const std::vector<std::string>& fields);
   void read_row(const std::vector<std::string>& fields);
   void note_marks(std::size_t k, const std::string& field);
+  void refuse_summary(const std::vector<std::string>& fields) const;
   void check_field(std::size_t k, const std::string& field, std::optional<double> number);
   GrainTable table();
 
@@ -168,7 +170,8 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   if (fields_.size() == 1) {
     fail(
         "the table has only one column. Separate columns by commas, semicolons or tabs; the first "
-        "line has their names.");
+        "line has their names" +
+        std::string(headings[0].rfind('#', 0) == 0 ? ", so delete the comments above it." : "."));
   }
   for (const GrainColumn& column : fields_) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
@@ -238,6 +241,21 @@ void TableReader::check_field(std::size_t k, const std::string& field,
   }
 }
 
+/// Throws for a row that spreadsheets and ImageJ write below the grains.
+void TableReader::refuse_summary(const std::vector<std::string>& fields) const {
+  constexpr std::string_view words[] = {"total",   "sum",     "mean",        "average",
+                                        "sd",      "std",     "std dev",     "stdev",
+                                        "min",     "max",     "count",       "median",
+                                        "minimum", "maximum", "grand total", "standard deviation"};
+  for (const std::string& field : fields) {
+    const std::string text = lower_case(trimmed(field));
+    if (std::find(std::begin(words), std::end(words), text) == std::end(words)) continue;
+    fail("the row has \"" + readable(field, "") +
+         "\", as one that sums up the rows above and is no grain. Leave it out, or name the grain "
+         "otherwise.");
+  }
+}
+
 void TableReader::read_row(const std::vector<std::string>& fields) {
   if (fields.size() == 1 && trimmed(fields[0]).empty()) return;  // a blank line
   if (fields.size() != fields_.size()) {
@@ -248,6 +266,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
     ++table_.failed;
     return;
   }
+  if (!status_field_) refuse_summary(fields);
   table_.grains.push_back(name_field_ ? fields[*name_field_]
                                       : std::to_string(table_.grains.size() + 1));
   if (file_field_) table_.files.push_back(fields[*file_field_]);
