@@ -62,8 +62,10 @@ struct MeshAttributes {
 
 /// The names that a file gives to sets of its faces: objects and groups of OBJ, solids of STL.
 struct NamedFaces {
-  std::vector<std::string> names;     ///< several solids may have one name
-  std::vector<std::int32_t> of_face;  ///< index of the name of each triangle; -1: none
+  std::vector<std::string> names;  ///< several solids may have one name
+  /// Index of the name of each triangle, -1: none. Or, twice as many, of the bodies on its two
+  /// sides, which have the triangle in common; -1: void.
+  std::vector<std::int32_t> of_face;
 };
 
 /// Returns the attribute with this name, or null.

@@ -30,9 +30,10 @@ struct MeshFile {
   /// read_pictures.
   MeshAttributes attributes;
   std::vector<std::string> material_libraries;  ///< .mtl files that an OBJ names
-  /// OBJ: its objects, and its groups. STL as text: its solids. PLY, VTK and VTP: the labels of
-  /// faces, by their numbers. A list is there only if it has at least two names, the coarser list
-  /// first.
+  /// OBJ: its objects, and its groups. STL as text: its solids. MSH: its physical groups of
+  /// surfaces. INP: the sets of its elements. PLY, VTK and VTP: the labels of faces, by their
+  /// numbers; VTK and VTP: of both sides of faces too. A list is there only if it has at least two
+  /// names, the coarser list first.
   std::vector<NamedFaces> named_faces;
   std::vector<std::string> warnings;  ///< oddities of the file, one sentence each
 };
@@ -78,7 +79,7 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path,
 /// others are text. Only binary STL and INP lose digits, because their numbers are short. Throws
 /// Error(InputOutput) if the file cannot be written or different vertices would become equal in the
 /// floats of STL; an existing file then stays as it was. Throws Error(InvalidInput) if the
-/// extension is unknown.
+/// extension is unknown or a coordinate is not finite, also in the floats of PLY and STL.
 void write_mesh(const IndexedMesh& mesh, const std::string& path,
                 PlyCoordinates coordinates = PlyCoordinates::Double);
 
