@@ -59,7 +59,8 @@ TEST(PartsPage, HasTheScaleOfTheOuterSurface) {
 
 TEST(PartsPage, NamesTheSourceTheWarningAndTheNumbers) {
   const PartsResult result = three_boxes(0.05);
-  const std::string page = parts_html(result, {"a folder/a & b.ply", ""}, Execution(1));
+  const std::string page = parts_html(result, {"a folder/a & b.ply", "2026-11-26"}, Execution(1));
+  EXPECT_NE(page.find("2026-11-26"), std::string::npos);
   EXPECT_NE(page.find("<h1>3 convex parts of a &amp; b.ply</h1>"), std::string::npos);
   EXPECT_NE(page.find("A &lt;warning&gt;."), std::string::npos);
   for (const std::string& line : parts_lines(result)) {
@@ -73,6 +74,7 @@ TEST(PartsReportJson, HoldsTheMeasures) {
   EXPECT_EQ(json.at("parts"), 3);
   EXPECT_EQ(json.at("faces"), nlohmann::json({12, 12, 12}));
   EXPECT_EQ(json.at("source"), "box.ply");
+  EXPECT_EQ(json.at("date"), "2026-11-26");
   EXPECT_NEAR(json.at("excess_volume_percent").get<double>(), 100.0 * (2.1 * 1.1 / 2.0 - 1.0),
               1e-9);
   EXPECT_NEAR(json.at("largest_distance").get<double>(), 0.05 * std::sqrt(2.0), 0.002);

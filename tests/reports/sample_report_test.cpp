@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/file_folder.h"
 #include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
@@ -169,6 +172,9 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   const Document json = Document::parse(sample_json(report));
   const Document& told = json["samples"][0]["trends_with_voxels"]["sphericity_wadell"];
   EXPECT_EQ(told["raw"]["value"].get<double>(), trend.raw.value);
+  EXPECT_EQ(told["corrected"]["value"].get<double>(), trend.corrected.value);
+  EXPECT_EQ(told["trusted"]["value"].get<double>(), trend.trusted.value);
+  EXPECT_EQ(told["grains"].get<std::size_t>(), 39U);
   EXPECT_EQ(told["trusted_grains"].get<std::size_t>(), 33U);
   std::map<std::string, std::string> in_csv;
   for (const auto& record : test::csv_records(sample_csv(report))) {
@@ -201,6 +207,38 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   EXPECT_TRUE(data["samples"][0]["corrected"][1][0].is_null());
   // Remeshes are another matter, and so is a table without voxels.
   EXPECT_TRUE(report_of(40, false).samples.front().trends.empty());
+}
+
+// The page's script draws against the voxels of each sample that has them, first or not.
+TEST(SampleReport, TellsTheVoxelsOfASecondSample) {
+  GrainTable meshes = scanned_table();
+  for (GrainColumn& column : meshes.columns) {
+    if (column.name.rfind("resolution.", 0) == 0) column.name = "else." + column.name;
+  }
+  GrainTable other = scanned_table();
+  other.values.col(3) = other.values.col(3).reverse().eval();
+  const auto page_of = [](const std::vector<GrainTable>& tables) {
+    SampleReport report;
+    report.options.repetitions = 0;
+    for (const GrainTable& table : tables) {
+      SampleTables one;
+      one.tables.push_back(table);
+      add_sample(report, "sample", one, {}, 1.0, Execution(1));
+    }
+    return sample_html(report, Execution(1));
+  };
+  const std::string name = "correlation with size";
+  const std::string alone = page_of({other});
+  const test::Rows expected = test::table_named(alone, name);
+  ASSERT_EQ(expected.size(), 2U);
+  for (const GrainTable& first : {meshes, scanned_table()}) {
+    const bool are_both = first.columns[4].name == "resolution.voxel_size";
+    const std::string page = page_of({first, other});
+    EXPECT_EQ(test::count_of(page, "id=\"voxels\""), 1U);
+    EXPECT_EQ(test::table_named(page, name, are_both ? 1 : 0), expected);
+    EXPECT_EQ(test::table_named(page, name, are_both ? 2 : 1), test::Rows());
+  }
+  EXPECT_EQ(page_of({meshes, meshes}).find("id=\"voxels\""), std::string::npos);
 }
 
 TEST(SampleReport, TakesTheFinestTableAndEachSamplesOwnDensity) {
@@ -239,6 +277,12 @@ TEST(VoxelLines, TellErrorsAndTooManyNodes) {
   EXPECT_NE(lines[0].find("sphericity of 1 of 40 grains"), std::string::npos) << lines[0];
   // A node of each 2 by 2 voxels: .95 * 3 / 4 across^2 < 300 below 20.5 voxels.
   EXPECT_NE(lines[1].find("13 of 40 grains"), std::string::npos) << lines[1];
+  // The median grain is between those of 27 and 28: .7125 (27^2 + 28^2) / 2.
+  EXPECT_NE(lines[1].find(": 539 are enough for the median grain"), std::string::npos) << lines[1];
+  const Eigen::VectorXd of_sphericity =
+      100.0 * (table.values.col(3).array() / table.values.col(7).array() - 1.0);
+  const std::string median = format_error(test::PlainStatistics(of_sphericity).quantile(0.5));
+  EXPECT_NE(lines[0].find("sphericity " + median + " %"), std::string::npos) << lines[0];
   table.values.col(8).setConstant(40.0);
   EXPECT_EQ(voxel_lines(table).size(), 1U);
   table.values.col(5).setConstant(std::nan(""));
@@ -255,8 +299,8 @@ TEST(SampleReport, LinesFitATerminalAndNameTheSize) {
     EXPECT_TRUE(line.size() <= 80U || line == report.samples[0].sample.notes[0]) << line;
     text += line + "\n";
   }
-  for (const char* part : {"first: 40 grains", "second & last", "second largest edge", "D60",
-                           "Wasserstein", "convexity", "next line."}) {
+  for (const char* part : {"first: 40 grains", "second & last", "second largest edge", "box, mm\n",
+                           "D60", "Wasserstein", "convexity", "next line."}) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   }
 }
@@ -292,33 +336,43 @@ TEST(SampleReport, TheSummaryIsShortAndHasOneTable) {
   }
 }
 
-TEST(SampleReport, FilesHoldTheStatistics) {
-  const SampleReport report = report_of(40, true);
-  const auto json = Document::parse(sample_json(report));
-  const SampleStatistics& s = report.samples[1].statistics;
-  EXPECT_EQ(json.at("options").at("size"), "sieve");
-  const Document& second = json.at("samples").at(1);
-  EXPECT_EQ(second.at("grains"), 40);
-  EXPECT_EQ(second.at("size").at("by_mass").at("D50").at("value"), s.size_by_mass.d50.value);
-  EXPECT_EQ(second.at("size").at("by_number").at("Cc").at("upper"),
-            s.size_by_number.curvature.upper);
-  const Document& convexity = second.at("descriptors").at("convexity");
-  EXPECT_EQ(convexity.at("count"), 39);
-  EXPECT_EQ(convexity.at("by_mass").at("standard_deviation").at("lower"),
-            s.columns[4].by_mass.deviation.lower);
-  EXPECT_EQ(json.at("comparison").at("axis_l_box").at("by_number").at("wasserstein"),
-            report.comparison[4].by_number.wasserstein);
-  std::size_t found = 0;
-  for (const auto& row : test::csv_records(sample_csv(report))) {
-    ASSERT_EQ(row.size(), 8U);
-    if (row[0] != "second & last" || row[1] != "axis_s_box" || row[3] != "mass") continue;
-    if (row[4] != "percent_90") continue;
-    ++found;
-    EXPECT_EQ(row[2], "mm");
-    EXPECT_EQ(std::stod(row[5]), s.columns[2].by_mass.percent_90.value);
-    EXPECT_EQ(std::stod(row[7]), s.columns[2].by_mass.percent_90.upper);
+TEST(SampleReport, LeavesOutWhatNoGrainHasAndTellsExactErrors) {
+  SampleReport report = report_of(5, false);
+  report.samples[0].statistics.columns[2].count = 0;  // of axis_s_box
+  const std::string page = sample_html(report, Execution(1));
+  for (const auto& row : test::table_named(page, "descriptor"))
+    EXPECT_NE(row[0], "axis_s_box [mm]");
+  for (const Document& row : data_of(page).at("needed")) {
+    EXPECT_NE(row.at("name"), "mean of axis_s_box");
   }
-  EXPECT_EQ(found, 1U);
+  DetailLevels levels;
+  levels.nodes = {100.0};
+  for (const char* name : {"volume", "convexity"})
+    levels.rows.push_back({name, {{1.0, 1e-13, 5}}, 100.0});
+  levels.rows[1].levels[0].count = 0;
+  report.levels = levels;
+  std::size_t seen = 0;
+  for (const auto& cells : test::cells_of_lines(sample_lines(report))) {
+    if (cells.size() != 3) continue;
+    EXPECT_NE(cells[0], "convexity");
+    if (cells[0] != "volume") continue;
+    ++seen;
+    EXPECT_EQ(cells[1], "exact");
+  }
+  EXPECT_EQ(seen, 1U);
+}
+
+class SampleReportFile : public test::FileFolder {};
+
+TEST_F(SampleReportFile, HasTheFormOfItsName) {
+  const SampleReport report = report_of(5, true);
+  for (const auto& [name, text] : {std::pair("a.html", sample_html(report, Execution(1))),
+                                   {"a.json", sample_json(report)},
+                                   {"a.csv", sample_csv(report)}}) {
+    write_sample_report(path(name), report, Execution(1));
+    std::ifstream file(path(name), std::ios::binary);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text) << name;
+  }
 }
 
 TEST(SampleReport, APageHoldsItsDataAndLoadsNothing) {
@@ -367,6 +421,55 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   // 50 descriptors of them fit in 6 MB with a name and a number.
   const double bytes_a_number = (static_cast<double>(page.size()) - 10000.0 * 18.0) / 70000.0;
   EXPECT_LT(bytes_a_number, 11.0);
+}
+
+// 5000 grains of each are in the page, and 50 of those have pictures.
+TEST_F(SampleReportFile, OfTwoLargeSamplesShowsHalfOfEach) {
+  write_mesh(test::tetrahedron(1.0), path("a.ply"));
+  SampleReport report = report_of(5, true);
+  constexpr Eigen::Index grains = 6000;
+  for (ReportedSample& one : report.samples) {
+    GrainSample& sample = one.sample;
+    one.folder = folder_.string();
+    sample.sizes.resize(grains);
+    sample.grains.clear();
+    sample.files.clear();
+    for (Eigen::Index k = 0; k < grains; ++k) {
+      sample.sizes[k] = 1.0 + static_cast<double>((k * 7) % grains);  // each of 1 to 6000 once
+      sample.grains.push_back(std::to_string(k));
+      // Of the first sample, the odd grains have no file.
+      sample.files.push_back(&one != &report.samples.front() || k % 2 == 0 ? "a.ply" : "none.ply");
+    }
+    sample.masses = sample.sizes;
+    sample.values.setOnes(grains, 5);
+  }
+  const std::string page = sample_html(report, Execution(1));
+  EXPECT_NE(page.find("<h1>Samples first and second &amp; last</h1>"), std::string::npos);
+  EXPECT_EQ(test::count_of(page, "Figures show 5000 of the grains"), 2U);
+  const Document samples = data_of(page).at("samples");
+  EXPECT_EQ(samples.at(0).at("sizeName"), "sieve size, mm");
+  for (std::size_t s = 0; s < 2; ++s) {
+    const Document& grains_ = samples.at(s).at("grains");
+    ASSERT_EQ(grains_.size(), 5000U);
+    std::vector<double> shown;
+    for (const auto& [row, picture] : samples.at(s).at("thumbs").items()) {
+      const int grain = std::stoi(grains_.at(std::stoul(row)).get<std::string>());
+      if (s == 0) {
+        EXPECT_EQ(grain % 2, 0);
+      }
+      shown.push_back(report.samples[s].sample.sizes[grain]);
+    }
+    std::sort(shown.begin(), shown.end());
+    if (s == 0) {
+      EXPECT_GT(shown.size(), 10U);
+      EXPECT_LT(shown.size(), 40U);
+      continue;
+    }
+    ASSERT_EQ(shown.size(), 50U);
+    EXPECT_EQ(shown.front(), 1.0);
+    EXPECT_EQ(shown.back(), 6000.0);
+    for (std::size_t k = 1; k < 50; ++k) EXPECT_NEAR(shown[k] - shown[k - 1], 5999.0 / 49.0, 3.0);
+  }
 }
 
 /// The sizes of a sample, by their definitions.
@@ -684,6 +787,7 @@ TEST(SampleReportNumbers, TellGrainsFailuresNotesAndWhatIsDrawn) {
   EXPECT_EQ(json.at("samples").at(0).at("repetitions"), 20);
   EXPECT_EQ(json.at("samples").at(1).at("notes"), Document({"One note."}));
   EXPECT_EQ(json.at("options").at("repetitions"), 20);
+  EXPECT_EQ(json.at("options").at("size"), "sieve");
   EXPECT_EQ(json.at("options").at("seed"), report.options.seed);
 
   const Document data = data_of(html);

@@ -187,6 +187,56 @@ TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
   EXPECT_NE(summary_html(summary).find("And 7 more"), std::string::npos);
 }
 
+TEST_F(SampleSummaryOfAFile, CountsTheWarningsThatItDoesNotName) {
+  std::string table = sample_header();
+  for (std::size_t k = 0; k < most_failures_named + 7; ++k) {
+    table += sample_row("odd", grain_of(1.0, {"Odd."}));
+  }
+  write(table);
+  EXPECT_NE(summary_html(summarise_table(path_)).find("And 7 more"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, OfEquallyFarRemeshesTheFirstIsFirst) {
+  std::string table = sample_header();
+  for (const char* name : {"c", "a", "b"}) {
+    RemeshResult result = grain_of(1.0);
+    result.rms_distance = 0.01;
+    table += sample_row(name, result);
+  }
+  write(table);
+  std::string order;
+  for (const GrainDistance& one : summarise_table(path_).farthest) order += one.grain;
+  EXPECT_EQ(order, "cab");
+}
+
+TEST_F(SampleSummaryOfAFile, HasTheStatesOfTheLabels) {
+  write(sample_header() + sample_row("a", grain_of(1.0)));
+  SampleSummary summary = summarise_table(path_);
+  EXPECT_EQ(summary_json(summary).find("\"labels\""), std::string::npos);
+  summary.labels = {{"all", 7}, {"written", 5}, {"at the border", 2}};
+  const auto json = nlohmann::ordered_json::parse(summary_json(summary));
+  EXPECT_EQ(json.at("labels").at("at the border"), 2);
+  EXPECT_NE(summary_html(summary).find("<p>7 labels: 5 written, 2 at the border.</p>"),
+            std::string::npos);
+}
+
+TEST(CensusLine, TellsEachStateThatThereIs) {
+  const CensusStates all = {{"all", 30},      {"written", 3}, {"pieces", 2}, {"at the border", 4},
+                            {"too small", 5}, {"open", 6},    {"failed", 7}, {"pores", 1}};
+  EXPECT_EQ(census_line(all, "bodies"),
+            "30 bodies: 3 written (2 in pieces), 4 at the border, 5 too small, 6 open and only "
+            "listed, 7 failed, 1 pore in them");
+  EXPECT_EQ(census_line({{"all", 1}, {"taken", 1}, {"pores", 2}}, "bodies"),
+            "1 body: 1 taken, 2 pores in them");
+  EXPECT_EQ(census_line({{"all", 8}}, "labels"), "8 labels: 0 written");
+}
+
+TEST(SampleTable, KnowsTheErrorOfAGrainAndOfALabel) {
+  EXPECT_EQ(failure_in("a.ply,failed,\"It, broke.\",7\r\n"), "It, broke.");
+  EXPECT_EQ(failure_in("ct.nrrd,5,800,failed,It broke.,\r\n"), "It broke.");
+  EXPECT_EQ(failure_in("a.ply,done,,7\r\n"), "");
+}
+
 TEST_F(SampleSummaryOfAFile, ThePageHasTheOptionsOfAllGrains) {
   RemeshResult first = grain_of(1.0);
   first.options.node_count = 321;

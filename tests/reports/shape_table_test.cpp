@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <map>
 #include <set>
@@ -11,7 +12,9 @@
 #include <vector>
 
 #include "support/flat_json.h"
+#include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
+#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 namespace {
@@ -87,6 +90,51 @@ TEST(ShapeTable, RowsHaveTheColumnsOfTheHeader) {
               remeshes);
     EXPECT_EQ(shape_header({what, remeshes}).find(",remesh.") != std::string::npos, remeshes);
   }
+}
+
+/// A box 6 x 3 x 2 and a box 1 x 1 x 1, turned and moved.
+RemeshResult two_boxes() {
+  RemeshResult result;
+  result.repaired_scan = test::transformed(test::box(6.0, 3.0, 2.0), test::random_rotation(6),
+                                           Vector3(7.0, -4.0, 9.0));
+  result.mesh = test::box(1.0, 1.0, 1.0);
+  return result;
+}
+
+TEST(ShapeTable, DescribesEachMesh) {
+  const RemeshResult result = two_boxes();
+  const GrainShape both = describe_result(result, Described::Both, Execution(1));
+  EXPECT_NEAR(both.scan->basic.volume, 36.0, 1e-9);
+  EXPECT_NEAR(both.remesh->basic.volume, 1.0, 1e-9);
+  EXPECT_FALSE(describe_result(result, Described::Scan, Execution(1)).remesh);
+  EXPECT_FALSE(describe_result(result, Described::Remesh, Execution(1)).scan);
+}
+
+// The columns give the tensor of inertia of the box in its pose.
+TEST(ShapeTable, HasThePrincipalFrame) {
+  GrainShape shape;
+  shape.scan.emplace().basic = describe_shape(two_boxes().repaired_scan, Execution(1));
+  const auto records = test::csv_records(shape_header({Described::Scan, false}) +
+                                         shape_row("a", "a.ply", RemeshResult(), shape));
+  std::map<std::string, double> row;
+  for (std::size_t k = 4; k < records[0].size(); ++k) {
+    if (!records[1][k].empty()) row[records[0][k]] = std::stod(records[1][k]);
+  }
+  const Eigen::Matrix3d axes =
+      Eigen::Quaterniond(row.at("scan.principal_axes_w"), row.at("scan.principal_axes_x"),
+                         row.at("scan.principal_axes_y"), row.at("scan.principal_axes_z"))
+          .toRotationMatrix();
+  const Vector3 moments(row.at("scan.principal_moment_least [length^5]"),
+                        row.at("scan.principal_moment_middle [length^5]"),
+                        row.at("scan.principal_moment_greatest [length^5]"));
+  // V / 12 times the sums of two squared edges.
+  EXPECT_LT((moments - Vector3(3.0 * 13.0, 3.0 * 40.0, 3.0 * 45.0)).norm(), 1e-9);
+  const Eigen::Matrix3d turn = test::random_rotation(6);
+  const Eigen::Matrix3d expected = turn * moments.asDiagonal() * turn.transpose();
+  EXPECT_LT((axes * moments.asDiagonal() * axes.transpose() - expected).norm(), 1e-9);
+  EXPECT_NEAR(row.at("scan.centroid_x [length]"), 7.0, 1e-12);
+  EXPECT_NEAR(row.at("scan.centroid_y [length]"), -4.0, 1e-12);
+  EXPECT_NEAR(row.at("scan.centroid_z [length]"), 9.0, 1e-12);
 }
 
 TEST(ShapeTable, HasWhatTheVoxelsDidIfAskedFor) {

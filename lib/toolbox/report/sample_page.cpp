@@ -56,11 +56,10 @@ std::string heading_in_words(const GrainColumn& column) {
   return words_of(column.name) + (column.unit.empty() ? "" : ", " + column.unit);
 }
 
-/// Returns at most `most` rows, evenly spaced in the order of size. They keep the shape of the
-/// distribution.
-std::vector<std::size_t> evenly_by_size(const GrainSample& sample, std::size_t most) {
-  std::vector<std::size_t> order(sample.grains.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+/// Returns at most `most` of the rows `order`, evenly spaced in the order of size. They keep the
+/// shape of the distribution.
+std::vector<std::size_t> evenly_by_size(const GrainSample& sample, std::vector<std::size_t> order,
+                                        std::size_t most) {
   if (order.size() <= most) return order;
   const auto size = [&](std::size_t k) { return sample.sizes[static_cast<Eigen::Index>(k)]; };
   std::stable_sort(order.begin(), order.end(),
@@ -123,7 +122,7 @@ std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>
                        std::size_t most, const Execution& execution) {
   std::string text = "{";
   if (!one.folder.empty() && !one.sample.files.empty()) {
-    const std::vector<std::size_t> shown = evenly_by_size(one.sample, most);
+    const std::vector<std::size_t> shown = evenly_by_size(one.sample, rows, most);
     for (std::size_t place = 0; place < rows.size(); ++place) {
       if (!std::binary_search(shown.begin(), shown.end(), rows[place])) continue;
       execution.report(0.0, "Drawing the grains");
@@ -139,7 +138,10 @@ std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>
 std::string sample_data(const ReportedSample& one, std::size_t samples,
                         const Execution& execution) {
   const GrainSample& sample = one.sample;
-  const std::vector<std::size_t> rows = evenly_by_size(sample, most_grains / samples);
+  std::vector<std::size_t> all(sample.grains.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> rows =
+      evenly_by_size(sample, std::move(all), most_grains / samples);
   Json grains = Json::array();
   for (const std::size_t row : rows) {
     grains.push_back(std::filesystem::path(sample.grains[row]).filename().string());
@@ -367,7 +369,8 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
   add_place(page, "forms");
   page.add_heading("Descriptors");
   add_place(page, "distributions");
-  if (!report.samples.front().trends.empty()) {
+  if (std::any_of(report.samples.begin(), report.samples.end(),
+                  [](const ReportedSample& one) { return !one.trends.empty(); })) {
     page.add_heading("Voxels");
     page.add_paragraph(
         "Few voxels across a grain hide its edges and its roughness, so that a trend with size may "
