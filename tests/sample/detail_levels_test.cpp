@@ -89,6 +89,30 @@ TEST(DetailLevels, ContactErrorsCountByTheirSize) {
   EXPECT_EQ(some.rows.size(), levels.rows.size() - 2);
 }
 
+/// Grains of radius 1 with one rms distance.
+GrainTable table_of_distance(double nodes, double percent) {
+  GrainTable table;
+  table.columns = {
+      {"nodes", ""}, {"rms_distance", "length"}, {"scan.equivalent_diameter", "length"}};
+  table.values = Eigen::RowVector3d(nodes, 0.01 * percent, 2.0).replicate(5, 1);
+  table.grains.assign(5, "grain");
+  return table;
+}
+
+TEST(DetailLevels, ErrorsThatRiseAgainNeedMoreNodes) {
+  const auto needed = [](double first, double second, double third) {
+    return measure_levels({table_of_distance(100.0, first), table_of_distance(400.0, second),
+                           table_of_distance(1600.0, third)},
+                          1.0)
+        .rows.at(0)
+        .nodes_needed;
+  };
+  // As 1 / N between the last two; rounded up.
+  EXPECT_NEAR(needed(0.5, 2.0, 0.5), 800.0, 1.0);
+  EXPECT_EQ(needed(2.0, 0.0, 0.0), 400.0);  // no line leads to 0
+  EXPECT_TRUE(std::isnan(needed(0.5, 0.5, 2.0)));
+}
+
 TEST(DetailLevels, LeavesOutErrorsWithoutColumns) {
   GrainTable scans = table_with(100.0);
   for (GrainColumn& column : scans.columns) {

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "grains/bent_grain.h"
 #include "support/expect_error.h"
 #include "support/random_sample.h"
+#include "toolbox/sample/distribution.h"
 #include "toolbox/sample/grown_mesh.h"
+#include "toolbox/sample/random_stream.h"
 #include "toolbox/sample/sample_comparison.h"
 #include "toolbox/sample/sample_grain.h"
 #include "wscvt/measures/descriptors.h"
@@ -99,6 +102,79 @@ TEST(GrainGrower, KeepsFormAndAmplitudesOfASampleThatHasOneOfEach) {
     const Eigen::Matrix3d expected = one.deviations.cwiseAbs2().asDiagonal();
     EXPECT_LT((moments.covariance - expected).norm(), 0.01);
   }
+}
+
+// Whatever the sample says of its form.
+TEST(GrainGrower, GrowsUnitVolumes) {
+  const SampleGrids grids(degree);
+  std::vector<SampleGrain> sample = test::random_sample(8, grids, 3);
+  for (SampleGrain& grain : sample) grain.deviations *= 1.2;
+  const GrainGrower grower(sample, grids, grown_with(3, 4));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const HarmonicGrid& grid = grids.fine_radial();
+    const double volume = radial_moments(grid, grid.values(grower.grow(k).radial)).volume;
+    // The amplitudes of the last step change it by their squares.
+    EXPECT_NEAR(volume / (4.0 * pi / 3.0), 1.0, 0.03);
+  }
+}
+
+// Sphericities here are closer to each other than what the sample says of convexity.
+TEST(GrainGrower, JudgesAttemptsInDeviationsOfTheSample) {
+  const SampleGrids grids(4);
+  std::vector<SampleGrain> sample = test::random_sample(8, grids, 4);
+  std::vector<double> sphericities, convexities;
+  for (std::size_t k = 0; k < 8; ++k) {
+    sample[k].convexity = 0.5 + 0.05 * static_cast<double>(k);
+    sphericities.push_back(sample[k].sphericity);
+    convexities.push_back(sample[k].convexity);
+  }
+  const auto deviation = [](const std::vector<double>& values) {
+    return Distribution(values).deviation();
+  };
+  std::vector<double> distances;
+  const GrainGrower grower(sample, grids, grown_with(2, 1));
+  const auto judge = [&](const GrownGrain& grain) {
+    const QuickShape shape =
+        quick_shape({surface_points(grain.radial, grain.offset, grids.sphere().points),
+                     grids.sphere().triangles},
+                    Execution(1));
+    const SampleGrain& base = sample[grain.donors.front()];
+    distances.push_back(
+        std::hypot((shape.shape.sphericity - base.sphericity) / deviation(sphericities),
+                   (shape.convexity - base.convexity) / deviation(convexities)));
+    return distances.size() == 30;
+  };
+  grower.grow(0, judge);
+  for (std::size_t k = 0; k < 30; k += 3) {
+    EXPECT_LE(distances[k], distances[k + 1]) << k;
+    EXPECT_LE(distances[k + 1], distances[k + 2]) << k;
+  }
+}
+
+// Donors of one relief that is its own mirror image are followed everywhere, others hardly anywhere
+// if there are six: a cap of 40 degrees is an eighth of the sphere. What is coarse does not count.
+TEST(GrainGrower, TellsWhereItFollowsADonor) {
+  const SampleGrids grids(degree);
+  SampleGrain one = test::random_sample(1, grids, 3).front();
+  std::fill(one.white.begin(), one.white.end(), 0.0);
+  std::vector<SampleGrain> equal(8, one);
+  std::vector<SampleGrain> others(8, one);
+  RandomStream random(1, 0);
+  for (std::size_t k = 0; k < 8; ++k) {
+    others[k].white[harmonic_index(4, 4)] = 0.1;
+    equal[k].white[harmonic_index(8, 0)] = 0.05;
+    equal[k].white[harmonic_index(8, 2)] = 0.03;
+    for (std::size_t i = 49; i < one.white.size(); ++i)
+      others[k].white[i] = 0.002 * random.normal();
+  }
+  const auto collage = [&](const std::vector<SampleGrain>& sample) {
+    const GrainGrower grower(sample, grids, grown_with(6, 1));
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) sum += grower.grow(k).collage;
+    return sum / 4.0;
+  };
+  EXPECT_GT(collage(equal), 0.9);
+  EXPECT_LT(collage(others), 0.6);
 }
 
 TEST(GrainGrower, GrowsDifferentGrainsOfEqualOnes) {

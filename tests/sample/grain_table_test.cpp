@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "wscvt/base/error.h"
@@ -84,6 +85,57 @@ TEST_F(GrainTableTest, KnowsTheColumnsOfOtherPrograms) {
   EXPECT_EQ(value(shape, "zingg_elongation_box"), 0.75);
   // A table of no program keeps its headings.
   EXPECT_TRUE(read("grain,Depth (mm3)\na,1\n").find("Depth (mm3)"));
+}
+
+/// Every column of a table, with its value in the first row.
+std::map<std::string, double> first_row(const GrainTable& table) {
+  std::map<std::string, double> row;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    row[heading_of(table.columns[k])] = table.values(0, static_cast<Eigen::Index>(k));
+  }
+  return row;
+}
+
+TEST_F(GrainTableTest, TakesEachColumnOfOtherProgramsUnderItsName) {
+  using Row = std::map<std::string, double>;
+  EXPECT_EQ(
+      first_row(read("Particle ID,Equivalent Diameter (mm),Major Axis Length (mm),Middle Axis "
+                     "Length (mm),Minor Axis Length (mm),True Sphericity (-),Convexity "
+                     "(-),Flatness (-),Elongation (-),Compactness (-)\n"
+                     "7,3,4,2,1,0.875,0.75,0.5,0.25,0.125\n")),
+      (Row{{"equivalent_diameter [mm]", 3.0},
+           {"axis_l_inertia [mm]", 4.0},
+           {"axis_i_inertia [mm]", 2.0},
+           {"axis_s_inertia [mm]", 1.0},
+           {"sphericity_wadell", 0.875},
+           {"convexity", 0.75},
+           {"zingg_flatness_inertia", 0.5},
+           {"zingg_elongation_inertia", 0.25},
+           {"compactness_of_area", 0.125}}));
+  // Radii of an ellipsoid, whose axes are twice as long.
+  EXPECT_EQ(first_row(read("Label,SurfaceArea,Elli.R1,Elli.R2,Elli.R3,InscrBall.Radius\n"
+                           "3,52,4,2,1,0.75\n")),
+            (Row{{"area", 52.0},
+                 {"axis_l_inertia", 8.0},
+                 {"axis_i_inertia", 4.0},
+                 {"axis_s_inertia", 2.0},
+                 {"inscribed_radius", 0.75}}));
+  EXPECT_EQ(
+      first_row(read("name,Surface_area,S_obb,I_obb,L_obb,Sphericity_Wadell,Convexity,Intercept_"
+                     "Sphericity_Krumbein,Flatness_Kong_and_Fonseca_2018,Elongation_Kong_and_"
+                     "Fonseca_2018,Zingg_S_over_I,Zingg_I_over_L\n"
+                     "b,52,1,2,4,0.875,0.75,0.625,0.5,0.375,0.25,0.125\n")),
+      (Row{{"area", 52.0},
+           {"axis_s_box", 1.0},
+           {"axis_i_box", 2.0},
+           {"axis_l_box", 4.0},
+           {"sphericity_wadell", 0.875},
+           {"convexity", 0.75},
+           {"krumbein_sphericity_box", 0.625},
+           {"kong_fonseca_flatness_box", 0.5},
+           {"kong_fonseca_elongation_box", 0.375},
+           {"zingg_flatness_box", 0.25},
+           {"zingg_elongation_box", 0.125}}));
 }
 
 TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {

@@ -84,6 +84,13 @@ TEST(GrainSearch, KnowsWhatIsUsual) {
   const GrainSearch search(sample);
   EXPECT_NEAR(search.usual_distance(Execution(1)), 0.1, 1e-9);
   EXPECT_EQ(search.usual_distance(Execution(1)), search.usual_distance(Execution(2)));
+  // Of many grains 400 are asked, of all parts of the sample: here most are 1 apart.
+  sample.resize(801, sample.front());
+  for (std::size_t k = 0; k < 801; ++k) {
+    const auto place = static_cast<double>(k);
+    sample[k].radial[0] = unit * (k < 300 ? 0.1 * place : place);
+  }
+  EXPECT_NEAR(GrainSearch(sample).usual_distance(Execution(1)), 1.0, 1e-6);
   EXPECT_ERROR(search.nearest({1.0, 2.0, 3.0, 4.0}), InvalidInput);
   EXPECT_ERROR(GrainSearch({}), InvalidInput);
 }

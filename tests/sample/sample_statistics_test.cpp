@@ -30,6 +30,10 @@ Eigen::VectorXd uniform(Eigen::Index count, std::uint64_t seed) {
   return values;
 }
 
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
 /// A table of scans whose sizes are those given, and whose volumes are the sizes' cubes.
 GrainTable table_of(const Eigen::VectorXd& sizes) {
   GrainTable table;
@@ -123,6 +127,32 @@ TEST(GrainSample, TakesMassesOrDensitiesOfTheTable) {
   SampleOptions options;
   options.density = 2.0;  // what is typed counts
   EXPECT_EQ(sample_of(table, options).masses, Eigen::Vector3d(2.0, 16.0, 54.0));
+}
+
+TEST(GrainSample, TakesSizesOfVolumes) {
+  GrainTable table;
+  table.columns = {{"volume", "mm^3"}, {"convexity", ""}};
+  table.values.resize(2, 2);
+  table.values << 4.0 / 3.0 * pi * 27.0, 0.9, 4.0 / 3.0 * pi * 0.125, 0.8;
+  table.grains = {"a", "b"};
+  SampleOptions options;
+  options.size = SizeMeasure::EquivalentDiameter;
+  const GrainSample sample = sample_of(table, options);
+  EXPECT_NEAR(sample.sizes[0], 6.0, 1e-12);
+  EXPECT_NEAR(sample.sizes[1], 1.0, 1e-12);
+  EXPECT_EQ(sample.size_unit, "mm");
+  EXPECT_EQ(sample.notes, std::vector<std::string>{"Sizes are from the column \"volume\"."});
+}
+
+// The resolution is the scans'.
+TEST(GrainSample, OfRemeshesHasNoVoxels) {
+  GrainTable table = table_of(Eigen::Vector3d(1.0, 2.0, 3.0));
+  table.columns[0].name = "resolution.voxels_across";
+  table.values.col(0).setConstant(9.0);
+  SampleOptions options;
+  EXPECT_EQ(sample_of(table, options).voxels_across.size(), 3);
+  options.of = SampledMesh::Remesh;
+  EXPECT_EQ(sample_of(table, options).voxels_across.size(), 0);
 }
 
 TEST(SampleComparison, RefusesTwoUnits) {
@@ -281,7 +311,7 @@ TEST(SampleStatistics, IntervalsAreThoseOfEachDraw) {
   options.seed = 12;
   const SampleStatistics s = measure_sample(sample, options, Execution(2));
   const Eigen::VectorXd& values = sample.values.col(2);
-  std::vector<std::vector<double>> drawn(4);
+  std::vector<std::vector<double>> drawn(5);
   for (std::uint64_t k = 0; k < 7; ++k) {
     RandomStream random(options.seed, k);
     Eigen::VectorXd times = Eigen::VectorXd::Zero(602);
@@ -296,10 +326,19 @@ TEST(SampleStatistics, IntervalsAreThoseOfEachDraw) {
     drawn[2].push_back(by_mass.mean());
     drawn[3].push_back(std::pow(sizes.quantile(0.3), 2) /
                        (sizes.quantile(0.1) * sizes.quantile(0.6)));
+    // A grain that came twice is two grains.
+    std::vector<double> repeated;
+    std::vector<double> masses;
+    for (Eigen::Index grain = 0; grain < 602; ++grain) {
+      repeated.insert(repeated.end(), static_cast<std::size_t>(times[grain]), values[grain]);
+      masses.insert(masses.end(), static_cast<std::size_t>(times[grain]), sample.masses[grain]);
+    }
+    drawn[4].push_back(test::PlainStatistics(vector_of(repeated), vector_of(masses)).deviation());
   }
   const ColumnStatistics& column = s.columns[2];
   const Estimate estimates[] = {column.by_number.percent_90, column.by_mass.median,
-                                column.by_mass.mean, s.size_by_mass.curvature};
+                                column.by_mass.mean, s.size_by_mass.curvature,
+                                column.by_mass.deviation};
   for (std::size_t k = 0; k < drawn.size(); ++k) {
     const Distribution all(drawn[k]);
     EXPECT_NEAR(estimates[k].lower, all.quantile(0.025), 1e-12) << k;
@@ -466,15 +505,33 @@ TEST(SampleComparison, PTellsSamplesOfOneFromThoseOfTwo) {
   EXPECT_LE(same, 7);  // more than 7 of 40 at 0.05: one run in 1,500
 }
 
+// Of the ten divisions of five grains into three and two only the samples' own is so far apart.
+TEST(SampleComparison, PIsThatOfAllDivisions) {
+  SampleOptions options;
+  options.repetitions = 4000;
+  const auto rows = compare_samples(sample_with(Eigen::Vector3d(1.0, 2.0, 3.0)),
+                                    sample_with(Eigen::Vector2d(4.0, 50.0)), options, Execution(1));
+  EXPECT_NEAR(rows[0].by_number.wasserstein_p, 0.1, 4.0 * std::sqrt(0.09 / 4000.0));
+}
+
+TEST(SampleComparison, FewerDivisionsAreMadeOfManyGrains) {
+  SampleOptions options;
+  options.repetitions = 450;
+  const auto p_of = [&](Eigen::Index grains) {
+    return compare_samples(sample_with(uniform(grains, 1).array() + 1.0),
+                           sample_with(uniform(grains, 2).array() + 3.0), options, Execution(1))[0]
+        .by_number.kolmogorov_p;
+  };
+  // No division is as far apart, so p is that of the samples themselves.
+  EXPECT_EQ(p_of(2000), 1.0 / 451.0);
+  EXPECT_EQ(p_of(3000), 1.0 / 301.0);  // 450 * 4,000 / 6,000
+}
+
 }  // namespace
 
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-Eigen::VectorXd vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 TEST(Distribution, QuantilesLieBetweenTheMiddlesOfTheWeights) {
   // Weights 1, 2, 5 of 8: the middles of the grains lie at 1/16, 4/16 and 11/16.

@@ -203,6 +203,40 @@ TEST(Templates, FindTheWeightsOfAMixture) {
     EXPECT_EQ(kinds[chosen.grains[chosen.stands_for[i]]], kinds[i]);
 }
 
+// All grains at random have the sample's distributions by number, and one of two is a deviation
+// off.
+TEST(Templates, DistancesOfRandomGrainsAreTheirMean) {
+  const MadeSample sample(30);
+  const SampleTemplates all =
+      choose_templates(sample.descriptors, sample.masses, with(30), Execution(1));
+  const Eigen::Map<const Eigen::VectorXd> masses(sample.masses.data(), 30);
+  for (Eigen::Index j = 0; j < 2; ++j) {
+    Eigen::VectorXd standard = sample.descriptors.col(j).array() - sample.descriptors.col(j).mean();
+    standard /= std::sqrt(standard.squaredNorm() / 30.0);
+    const double apart = test::plain_distances(test::PlainStatistics(standard),
+                                               test::PlainStatistics(standard, masses))
+                             .second;
+    EXPECT_NEAR(all.random.by_number[static_cast<std::size_t>(j)], 0.0, 1e-12);
+    EXPECT_NEAR(all.random.by_mass[static_cast<std::size_t>(j)], apart, 1e-12);
+  }
+  const SampleTemplates one =
+      choose_templates(Eigen::Vector2d(3.0, 7.0), {1.0, 1.0}, with(1), Execution(1));
+  EXPECT_NEAR(one.random.by_number[0], 1.0, 1e-12);
+}
+
+// Grains at 0, 1 and 10, of which two templates can be at 0 and 10: the area between the functions
+// is least if that at 0 has the weight .75 of both others. Least squares have .72.
+TEST(Templates, HaveWeightsOfLeastAbsoluteDifferences) {
+  Eigen::VectorXd descriptor(20);
+  descriptor << Eigen::VectorXd::Zero(8), Eigen::VectorXd::Ones(7),
+      Eigen::VectorXd::Constant(5, 10);
+  const SampleTemplates chosen =
+      choose_templates(descriptor, std::vector<double>(20, 1.0), with(2), Execution(1));
+  ASSERT_EQ(descriptor[static_cast<Eigen::Index>(chosen.grains[0])], 0.0);
+  ASSERT_EQ(descriptor[static_cast<Eigen::Index>(chosen.grains[1])], 10.0);
+  EXPECT_NEAR(chosen.by_number[0], 0.75, 5e-3);
+}
+
 TEST(Templates, HangOnTheSeedOnlyAndNotOnUnits) {
   const MadeSample sample(120);
   const SampleTemplates one =
