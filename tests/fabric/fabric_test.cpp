@@ -11,11 +11,13 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
 #include "support/page_tables.h"
+#include "support/test_shapes.h"
 #include "support/volume_folder.h"
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/sample/csv_reader.h"
@@ -102,6 +104,8 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
   std::normal_distribution<double> normal;
   std::vector<double> ratios;
   std::vector<double> errors;
+  double of_normals = 0.0;  // squares of errors over uncertainties
+  double of_centres = 0.0;
   for (int k = 0; k < 24; ++k) {
     const Vector3 n = Vector3(normal(random), normal(random), normal(random)).normalized();
     const Vector3 middle(32.3, 31.8, 32.1);
@@ -114,6 +118,9 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
     ratios.push_back(contact.area / balls.area());
     errors.push_back(angle_between(contact.normal, balls.normal()));
     EXPECT_LT((contact.centre - balls.centre()).norm(), 3.0 * contact.centre_uncertainty + 0.1);
+    of_normals += std::pow(errors.back() / contact.normal_uncertainty, 2) / 24.0;
+    of_centres += (contact.centre - balls.centre()).squaredNorm() /
+                  std::pow(contact.centre_uncertainty, 2) / 24.0;
     EXPECT_GT(contact.raw_area, balls.area());
     // Balls of 1 % discretization.
     EXPECT_LT((contact.branch - (balls.b - balls.a)).norm(), 0.7);
@@ -125,6 +132,9 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
   EXPECT_GT(ratios.front(), 0.85);
   EXPECT_LT(ratios.back(), 1.15);
   EXPECT_LT(errors[12], 1.5);
+  // Standard uncertainties: the means are of the order of 1.
+  EXPECT_NEAR(std::log10(of_normals), 0.0, 1.5);
+  EXPECT_NEAR(std::log10(of_centres), 0.0, 2.0);
 }
 
 // A grain inside another, and inside a cup: no projection of their wall tells its area.
@@ -180,6 +190,8 @@ TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
       EXPECT_GT(contact.raw_area, 0.0);
       EXPECT_FALSE(contact.is_contact) << n.transpose();
       EXPECT_LT(contact.area, 0.0);
+      EXPECT_EQ(fabric.grains[contact.first].touching, 1U);
+      EXPECT_EQ(fabric.grains[contact.first].contacts, 0U);
     }
     EXPECT_EQ(fabric.contact_count, 0U);
   }
@@ -581,6 +593,207 @@ TEST_F(FabricOfAFile, WritesWhatItMeasured) {
             std::string::npos);
   // All three normals lie within ten degrees of x, so the first or the last sector has them.
   EXPECT_NE(page.find("outer circle: "), std::string::npos);
+}
+
+TEST_F(FabricOfAFile, SumsUpItsContacts) {
+  const Fabric fabric = measured(chain());
+  Eigen::Matrix3d branches = Eigen::Matrix3d::Zero();
+  double squares = 0.0;
+  double rings = 0.0;
+  std::size_t contacts = 0;
+  std::vector<std::size_t> touching(fabric.grains.size(), 0);
+  for (const FabricContact& contact : fabric.contacts) {
+    ++touching[contact.first];
+    ++touching[contact.second];
+    if (!contact.is_contact) continue;
+    ++contacts;
+    const Vector3 along = contact.branch / contact.branch.norm();
+    branches += along * along.transpose();
+    squares += contact.area_uncertainty * contact.area_uncertainty;
+    rings += contact.raw_area - contact.area;
+  }
+  ASSERT_GT(contacts, 1U);
+  EXPECT_LT((fabric.branch_tensor - branches / static_cast<double>(contacts)).norm(), 1e-12);
+  // Six hundredths of all rings err together.
+  EXPECT_NEAR(fabric.contact_area_uncertainty, std::sqrt(squares + 0.0036 * rings * rings), 1e-9);
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    EXPECT_EQ(fabric.grains[k].touching, touching[k]) << k;
+  }
+}
+
+/// Three grains, two contacts and a pair with a gap, whose numbers are all different.
+Fabric numbered_fabric() {
+  Fabric fabric;
+  fabric.geometry.axes *= 0.5;
+  fabric.geometry.unit = "mm";
+  fabric.names = {{8, "quartz"}};
+  for (int k = 0; k < 3; ++k) {
+    FabricGrain grain;
+    const double number = 100.0 * (k + 1);
+    grain.label = static_cast<Label>(3 + 5 * k);
+    grain.voxels = static_cast<std::uint64_t>(number) + 1;
+    grain.volume = number + 2.0;
+    grain.centre = Vector3(number + 3.0, number + 4.0, number + 5.0);
+    grain.touching = static_cast<std::size_t>(number) + 6;
+    grain.contacts = static_cast<std::size_t>(k) + 1;
+    grain.contact_area = number + 8.0;
+    grain.at_border = k == 2;
+    fabric.grains.push_back(grain);
+  }
+  for (int k = 0; k < 3; ++k) {
+    FabricContact contact;
+    const double number = 10.0 * (k + 1);
+    contact.first = k == 1 ? 1 : 0;
+    contact.second = k == 0 ? 1 : 2;
+    contact.is_contact = k < 2;
+    contact.faces = static_cast<std::size_t>(number) + 1;
+    contact.raw_area = number + 0.2;
+    contact.area = k < 2 ? number + 0.3 : -0.3;
+    contact.area_uncertainty = number + 0.4;
+    contact.centre = Vector3(number + 0.5, number + 0.6, number + 0.7);
+    contact.centre_uncertainty = number + 0.8;
+    contact.normal = Vector3(0.9962, 0.0872, 0.0);  // 5 degrees from x
+    contact.normal_uncertainty = number + 0.9;
+    contact.branch = number * Vector3(-0.05, 1.0, 0.0);  // 93 degrees
+    contact.at_border = k == 1;
+    fabric.contacts.push_back(contact);
+  }
+  fabric.contact_count = 2;
+  fabric.whole_grains = 2;
+  fabric.coordination = 1.5;
+  fabric.contact_area = 30.6;
+  fabric.contact_area_uncertainty = 2.25;
+  fabric.blur = 0.4;
+  const Eigen::Matrix3d turn = test::random_rotation(3);
+  fabric.tensor = turn * Vector3(0.3, 0.6, 0.1).asDiagonal() * turn.transpose();
+  fabric.branch_tensor = turn * Vector3(0.2, 0.1, 0.7).asDiagonal() * turn.transpose();
+  return fabric;
+}
+
+TEST(FabricNumbers, StandUnderTheirNamesInTheTables) {
+  const Fabric fabric = numbered_fabric();
+  const auto expect = [](const std::map<std::string, std::string>& row,
+                         const std::map<std::string, double>& numbers) {
+    for (const auto& [name, number] : numbers) {
+      EXPECT_EQ(std::stod(row.at(name)), number) << name;
+    }
+  };
+  const auto contacts = rows_of(contacts_csv(fabric));
+  ASSERT_EQ(contacts.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FabricContact& c = fabric.contacts[k];
+    EXPECT_EQ(contacts[k].size(), 20U);
+    expect(contacts[k], {{"first", k == 1 ? 8 : 3},
+                         {"second", k == 0 ? 8 : 13},
+                         {"contact", k < 2 ? 1 : 0},
+                         {"faces", static_cast<double>(c.faces)},
+                         {"raw_area", c.raw_area},
+                         {"area", c.area},
+                         {"area_uncertainty", c.area_uncertainty},
+                         {"x", c.centre.x()},
+                         {"y", c.centre.y()},
+                         {"z", c.centre.z()},
+                         {"centre_uncertainty", c.centre_uncertainty},
+                         {"normal_x", c.normal.x()},
+                         {"normal_y", c.normal.y()},
+                         {"normal_z", c.normal.z()},
+                         {"normal_uncertainty", c.normal_uncertainty},
+                         {"branch_x", c.branch.x()},
+                         {"branch_y", c.branch.y()},
+                         {"branch_z", c.branch.z()},
+                         {"at_border", k == 1 ? 1 : 0}});
+    EXPECT_EQ(contacts[k].at("unit"), "mm");
+  }
+  const auto grains = rows_of(fabric_grains_csv(fabric));
+  ASSERT_EQ(grains.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FabricGrain& g = fabric.grains[k];
+    EXPECT_EQ(grains[k].size(), 12U);
+    EXPECT_EQ(grains[k].at("name"), k == 1 ? "quartz" : "");
+    expect(grains[k], {{"label", g.label},
+                       {"voxels", static_cast<double>(g.voxels)},
+                       {"volume", g.volume},
+                       {"x", g.centre.x()},
+                       {"y", g.centre.y()},
+                       {"z", g.centre.z()},
+                       {"touching", static_cast<double>(g.touching)},
+                       {"contacts", static_cast<double>(g.contacts)},
+                       {"contact_area", g.contact_area},
+                       {"at_border", k == 2 ? 1 : 0}});
+  }
+}
+
+TEST(FabricNumbers, StandUnderTheirNamesInTheDiscs) {
+  const Fabric fabric = numbered_fabric();
+  const std::string text = contacts_vtp(fabric);
+  const auto numbers_of = [&](const std::string& name) {
+    const std::string array = test::between(text, "Name=\"" + name + "\"", "</DataArray>").at(0);
+    std::istringstream stream(array.substr(array.find('>') + 1));
+    std::vector<double> numbers;
+    for (double number = 0.0; stream >> number;) numbers.push_back(number);
+    return numbers;
+  };
+  // The disc of 16 corners and its middle, for each of the two contacts.
+  for (std::size_t k = 0; k < 2; ++k) {
+    const FabricContact& c = fabric.contacts[k];
+    const std::pair<const char*, double> expected[] = {{"area", c.area},
+                                                       {"area_uncertainty", c.area_uncertainty},
+                                                       {"first", k == 1 ? 8 : 3},
+                                                       {"second", k == 0 ? 8 : 13}};
+    for (const auto& [name, number] : expected) {
+      ASSERT_EQ(numbers_of(name).size(), 34U) << name;
+      EXPECT_EQ(numbers_of(name)[17 * k + 5], number) << name;
+    }
+    for (const auto& [name, vector] : {std::pair("normal", c.normal), {"branch", c.branch}}) {
+      const std::vector<double> numbers = numbers_of(name);
+      ASSERT_EQ(numbers.size(), 3U * 34U) << name;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(numbers[3 * (17 * k + 5) + i], vector[static_cast<Eigen::Index>(i)]) << name;
+      }
+    }
+  }
+}
+
+TEST(FabricNumbers, StandUnderTheirNamesInThePageAndTheLog) {
+  const Fabric fabric = numbered_fabric();
+  const std::vector<std::string> lines = fabric_lines(fabric);
+  EXPECT_EQ(lines[0], "3 grains, 1 of them at the border");
+  EXPECT_EQ(lines[1], "3 pairs of labels touch: 2 in contact, 1 with a narrow gap");
+  EXPECT_EQ(
+      lines[2],
+      "Projected area of the contacts 30.6 mm^2, standard uncertainty 2.25 mm^2; of all pairs "
+      "as the labels have it 60.6 mm^2");
+  EXPECT_EQ(lines[3], "Mean coordination of the grains not at the border: 1.5");
+  EXPECT_EQ(lines.back(), "Blur of the scan: a standard deviation of 0.4 mm, 0.8 voxels");
+  const std::string page = fabric_html(fabric, {"labels.nrrd", ""});
+  // Principal values, the largest first, with their directions.
+  const Eigen::Matrix3d turn = test::random_rotation(3);
+  const std::tuple<std::string, std::array<std::string, 3>, std::array<int, 3>> tensors[] = {
+      {"fabric tensor of the normals", {"0.6", "0.3", "0.1"}, {1, 0, 2}},
+      {"of the branch vectors", {"0.7", "0.2", "0.1"}, {2, 0, 1}}};
+  for (const auto& [name, values, axes] : tensors) {
+    const test::Rows rows = test::table_named(page, name);
+    ASSERT_EQ(rows.size(), 4U) << name;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(rows[k + 1][4], values[k]) << name;
+      std::string text = rows[k + 1][5];
+      std::replace(text.begin(), text.end(), ',', ' ');
+      std::istringstream stream(text);
+      Vector3 direction;
+      for (double& component : direction) stream >> component;
+      // Three digits are shown.
+      EXPECT_NEAR(std::abs(direction.dot(turn.col(axes[k]))), 1.0, 3e-3) << name;
+    }
+  }
+  // Normals are in the first sector of the planes of x and y and of x and z, branch vectors in that
+  // behind y, and beside x; along the third axis of a plane a direction is at 0.
+  EXPECT_EQ(test::count_of(page, "L 270 150 A 120 120 "), 5U);
+  EXPECT_EQ(test::count_of(page, "L 150 30 A 120 120 "), 1U);
+  const test::Rows areas = test::table_named(page, "projected area of the contacts");
+  EXPECT_EQ(areas[1], (std::vector<std::string>{"corrected", "10.3", "10.3", "15.3", "20.3", "20.3",
+                                                "30.6"}));
+  EXPECT_EQ(areas[2], (std::vector<std::string>{"as the labels have it", "10.2", "10.2", "15.2",
+                                                "20.2", "20.2", "30.4"}));
 }
 
 TEST_F(FabricOfAFile, DrawsADiscForEachContact) {
