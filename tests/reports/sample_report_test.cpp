@@ -201,6 +201,7 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
                                                  "33", shown(trend.trusted.value, trend.trusted)}));
   const Document data = data_of(page);
   EXPECT_EQ(data["leastAcross"].get<double>(), 15.0);
+  EXPECT_EQ(data["nodesOfFace"].get<double>(), 0.25);  // a node of each 2 by 2 voxels
   EXPECT_EQ(data["samples"][0]["resolved"], Document({"area", "sphericity_wadell"}));
   EXPECT_EQ(data["samples"][0]["across"].size(), 40U);
   EXPECT_EQ(data["samples"][0]["corrected"][0][0].get<double>(), 1.92);

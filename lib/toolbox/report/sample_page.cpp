@@ -220,6 +220,7 @@ std::string data_of(const SampleReport& report, const Execution& execution) {
   }
   text += "],\"needed\":" + in_page(needed_of(report.samples.front().statistics));
   text += ",\"leastAcross\":" + format_number(least_trusted_across, 3);
+  text += ",\"nodesOfFace\":" + format_number(resolved_nodes(1.0, 1.0), 3);
   return text + ",\"levels\":" + (report.levels ? in_page(levels_of(*report.levels)) : "null") +
          "}";
 }

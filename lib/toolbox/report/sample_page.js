@@ -356,12 +356,27 @@ function againstVoxels(sample, name) {
   });
   return {svg: svgOf(body), rows: rows};
 }
+function median(list) {
+  const sorted = list.filter(found).sort((a, b) => a - b), n = sorted.length;
+  return n > 0 ? (sorted[n - 1 >> 1] + sorted[n >> 1]) / 2 : null;
+}
+// Of the median grain: the error of its voxels in %, and the nodes that they resolve.
+function byVoxels(name) {
+  const sample = data.samples[0], across = sample.across || [];
+  const corrected = (sample.corrected || [])[sample.resolved.indexOf(name)] || [];
+  const raw = values(sample, name) || [], area = values(sample, "area") || [];
+  const diameter = values(sample, "equivalent_diameter") || [];
+  return [median(corrected.map((v, k) => found(v) ? 100 * Math.abs(raw[k] / v - 1) : null)),
+          median(across.map((n, k) => found(n) && found(diameter[k]) && found(area[k]) ?
+              data.nodesOfFace * area[k] * (n / diameter[k]) ** 2 : null))];
+}
 function errors(name) {
   const levels = data.levels;
   const row = levels.rows.find(one => one.name === name);
-  const all = row.median.concat(row.percent_90).filter(v => found(v) && v > 0);
+  const [voxelError, enough] = byVoxels(name);
+  const all = row.median.concat(row.percent_90, voxelError).filter(v => found(v) && v > 0);
   const [least, most] = all.length ? range([all.concat([levels.mark])]) : [0.1, 10];
-  const first = levels.nodes[0], last = levels.nodes[levels.nodes.length - 1];
+  const [first, last] = range([levels.nodes.concat(enough)]);
   const a = axes({low: first * 0.9, high: last * 1.1, log: true, at: levels.nodes,
                   label: "number of nodes N"},
                  {low: least * 0.8, high: most * 1.25, log: true,
@@ -376,8 +391,21 @@ function errors(name) {
   for (const p of curve(row.percent_90).concat(curve(row.median))) {
     body += `<circle cx="${at(p[0])}" cy="${at(p[1])}" r="3" fill="${colours[0]}"/>`;
   }
-  const rows = [["nodes", "median_percent", "percent_90"]];
-  levels.nodes.forEach((n, k) => rows.push([n, row.median[k], row.percent_90[k]]));
+  if (voxelError > 0) {
+    body += line(left, a.py(voxelError), width - right, a.py(voxelError), "#333",
+                 'stroke-dasharray="4 3"') +
+        text(width - right - 4, a.py(voxelError) - 4, "error of the voxels", 'text-anchor="end"');
+  }
+  if (enough > 0) {
+    const x = a.px(enough), onRight = x > width / 2;
+    body += line(x, top_, x, height - bottom, "#333", 'stroke-dasharray="4 3"') +
+        text(x + (onRight ? -4 : 4), top_ + 12, "nodes that the voxels resolve",
+             `text-anchor="${onRight ? "end" : "start"}"`);
+  }
+  const rows = [["nodes", "median_percent", "percent_90", "voxels_median_percent",
+                 "nodes_resolved"]];
+  levels.nodes.forEach((n, k) =>
+      rows.push([n, row.median[k], row.percent_90[k], voxelError, Math.round(enough)]));
   return {svg: svgOf(body), rows: rows};
 }
 
@@ -437,19 +465,21 @@ choice("distributions-choice", "Weight of a grain", weightings, shownWeighting, 
 });
 const scanned = data.samples.filter(sample => sample.resolved.length > 0);
 if (scanned.length > 0) {
-  const main = ["sphericity_wadell", "convexity", "roundness_wadell", "aspect_ratio_inertia"];
   const names_ = scanned[0].resolved;
-  const caption = "against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
-  for (const name of main.filter(one => names_.includes(one))) {
-    for (const sample of scanned) {
-      figure("voxels", "voxels_" + name, sample.name + ": " + wordsOf(name) + " " + caption,
-             () => againstVoxels(sample, name));
-    }
-  }
+  let shownVoxels = names_.includes(first) ? first : names_[0];
+  const caption = ": against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
+  const redraws = scanned.map(sample => figure("voxels", "voxels_across", sample.name + caption,
+                                               () => againstVoxels(sample, shownVoxels)));
+  choice("voxels-choice", "Descriptor", names_.map(name => [name, wordsOf(name)]), shownVoxels, value => {
+    shownVoxels = value;
+    redraws.forEach(redraw => redraw());
+  });
 }
 if (data.levels) {
   let shownLevel = data.levels.rows[0].name;
-  const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark.";
+  const caption = "Line: 90 % of the grains have a smaller error. Dashed: median. Red: mark." +
+      (scanned.length > 0 ? " Grey, of the median grain: below the error of the voxels, and beyond " +
+          "the nodes that they resolve, more nodes tell nothing of the grain." : "");
   const redraw = figure("levels", "levels", caption, () => errors(shownLevel));
   choice("levels-choice", "Error of", data.levels.rows.map(row => [row.name, row.words]), shownLevel,
          value => {
