@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/segmented_scan.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "toolbox/resolution/resolution.h"
 #include "wscvt/base/error.h"
@@ -100,16 +101,20 @@ Eigen::Quaterniond turn_of(Numbers& numbers) {
 
 /// Returns the rows of a body, voxelised so that the sphere of equal volume is `across` voxels
 /// wide.
-std::string rows_of(const Body& body, const DetailedDescriptors& truth, int across, int pose) {
-  Numbers numbers(static_cast<std::uint64_t>(1000 * across + pose));
+std::string rows_of(const Body& body, const DetailedDescriptors& truth, double across, int pose,
+                    const test::Scan& scan) {
+  Numbers numbers(static_cast<std::uint64_t>(1000.0 * across) + static_cast<std::uint64_t>(pose));
   VoxelPose at{turn_of(numbers), Vector3::Zero()};
   for (int k = 0; k < 3; ++k) at.shift[k] = 1.0 + uniform(numbers, 0.0, 1.0);
   const double size = truth.equivalent_diameter / across;
   const Execution one_thread(1);
-  const IndexedMesh seen = check_mesh(surface_of_voxels(mesh_voxels(body.mesh, size, at),
-                                                        ResolutionOptions().smoothing, size),
-                                      MeshCheckOptions(), one_thread)
-                               .mesh;
+  const std::vector<VoxelStretch> voxels =
+      scan.blur > 0.0 ? test::segmented_voxels(body.mesh, size, at, scan, numbers)
+                      : mesh_voxels(body.mesh, size, at);
+  const IndexedMesh seen =
+      check_mesh(surface_of_voxels(voxels, ResolutionOptions().smoothing, size), MeshCheckOptions(),
+                 one_thread)
+          .mesh;
   const DetailedDescriptors measured =
       describe_shape_in_detail(seen, DetailedOptions(), one_thread);
   ResolutionOptions options;
@@ -120,16 +125,16 @@ std::string rows_of(const Body& body, const DetailedDescriptors& truth, int acro
   std::string text;
   for (const ResolvedValue& row : resolution.rows) {
     char line[300];
-    std::snprintf(line, sizeof line, "%s,%d,%d,%s,%.10g,%.10g,%.10g,%.10g\n", body.name.c_str(),
-                  across, pose, row.key.c_str(), true_values[row.key], row.value, row.again,
-                  row.scatter);
+    std::snprintf(line, sizeof line, "%s,%.6g,%d,%s,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g\n",
+                  body.name.c_str(), across, pose, row.key.c_str(), true_values[row.key], row.value,
+                  row.again, row.scatter, row.corrected, row.low, row.high);
     text += line;
   }
   return text;
 }
 
 void run(const std::vector<std::string>& files, int grown, int poses, int threads,
-         const std::vector<int>& across) {
+         const std::vector<double>& given, double voxel, const test::Scan& scan) {
   std::vector<Body> bodies;
   for (int k = 0; k < grown; ++k) {
     bodies.push_back({"grown_" + std::to_string(k), grown_body(static_cast<std::uint64_t>(k))});
@@ -137,16 +142,19 @@ void run(const std::vector<std::string>& files, int grown, int poses, int thread
   for (const std::string& file : files) {
     bodies.push_back({file.substr(file.find_last_of('/') + 1), read_body(file)});
   }
-  std::cout << "body,across,pose,key,truth,value,again,scatter\n";
+  std::cout << "body,across,pose,key,truth,value,again,scatter,corrected,low,high\n";
   for (const Body& body : bodies) {
     const DetailedDescriptors truth =
         describe_shape_in_detail(body.mesh, DetailedOptions(), Execution(threads));
+    const std::vector<double> across =
+        voxel > 0.0 ? std::vector<double>{truth.equivalent_diameter / voxel} : given;
     const std::size_t count = across.size() * static_cast<std::size_t>(poses);
     std::vector<std::string> rows(count);
     Execution(threads).parallel_for(count, 1, [&](std::size_t begin, std::size_t) {
       const int pose = static_cast<int>(begin) % poses;
       try {
-        rows[begin] = rows_of(body, truth, across[begin / static_cast<std::size_t>(poses)], pose);
+        rows[begin] =
+            rows_of(body, truth, across[begin / static_cast<std::size_t>(poses)], pose, scan);
       } catch (const Error& error) {
         std::cerr << body.name << ": " << error.what() << '\n';
       }
@@ -163,18 +171,23 @@ void run(const std::vector<std::string>& files, int grown, int poses, int thread
 int main(int count, char** words) {
   CLI::App app("What voxels do to descriptors");
   std::vector<std::string> files;
-  std::vector<int> across = {10, 15, 20, 30, 40};
+  std::vector<double> across = {10, 15, 20, 30, 40};
+  double voxel = 0.0;
   int grown = 0;
   int poses = 8;
   int threads = 2;
+  wscvt::test::Scan scan;
   app.add_option("files", files, "Meshes, or spherical harmonics (.dat)");
   app.add_option("--grown", grown, "Number of grown bodies");
   app.add_option("--poses", poses, "Poses of a body");
   app.add_option("--across", across, "Numbers of voxels across");
+  app.add_option("--blur", scan.blur, "Blur of a scan that is segmented, voxels; 0: exact labels");
+  app.add_option("--noise", scan.noise, "Noise of the scan over the step from void to grain");
+  app.add_option("--voxel", voxel, "Instead: size of a voxel in the unit of the bodies");
   app.add_option("--threads", threads, "Threads");
   CLI11_PARSE(app, count, words);
   try {
-    wscvt::run(files, grown, poses, threads, across);
+    wscvt::run(files, grown, poses, threads, across, voxel, scan);
   } catch (const wscvt::Error& error) {
     std::cerr << error.what() << '\n';
     return 1;

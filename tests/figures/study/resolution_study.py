@@ -2,14 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads the rows of resolution_study. Every second body of a file, from the first, gives the biases; the others judge.
 
-biases ROWS...  prints the table of descriptor_biases.cpp
+biases ROWS...  prints the table of descriptor_biases.cpp for exact labels
+scans ROWS...   prints the table as it is, with intervals that hold for all bodies of rows of exact labels and of segmented scans
 table ROWS...   prints errors of the other bodies, raw and corrected, and how often the intervals cover the true values
 each ROWS...    prints the error of area, raw and corrected, with each of all bodies left out of its own fit
+judge ROWS...   prints the same errors, and widths of the intervals, of all bodies of rows by the table as it is
+cutoff ROWS...  prints what a smallest volume leaves out of the bodies of rows made with --voxel, and what ours keeps
 """
 
 import collections
 import csv
 import math
+import pathlib
+import re
 import sys
 
 import numpy as np
@@ -69,6 +74,7 @@ def widths(key_rows, left, size):
     near = np.abs(key_rows["value"]) / size / key_rows["across"]
     sides = (np.maximum(-left, 0.0), np.maximum(left, 0.0))
     covered = 1.0 - (1.0 - COVERED) / 2.0  # half of the rest is outside of each side
+    groups = key_rows["across"] + 1000 * key_rows.get("kind", 0)
     chosen = None
     for share in (0.0, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5):
         for scatters in (0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0):
@@ -76,9 +82,8 @@ def widths(key_rows, left, size):
                 whole = share * change + scatters * scatter + rest * near
                 with np.errstate(divide="ignore", invalid="ignore"):
                     ratios = [np.where(whole > 0, side / whole, np.where(side > 0, np.inf, 0.0)) for side in sides]
-                # Each number of voxels across is covered, not only all together.
-                scales = [max(np.quantile(ratio[key_rows["across"] == d], covered) for d in np.unique(key_rows["across"]))
-                          for ratio in ratios]
+                # Each number of voxels across, and each file of `scans`, is covered, not only all together.
+                scales = [max(np.quantile(ratio[groups == d], covered) for d in np.unique(groups)) for ratio in ratios]
                 if not np.all(np.isfinite(scales)) or scales[0] == 0.0:
                     continue
                 width = sum(scales) * np.mean(whole * key_rows["across"])
@@ -137,6 +142,40 @@ def biases(paths):
         print(f'    {{"{key}", ' + ", ".join(told(number) for number in found[0]) + f"}},  // {found[1]:.2f}")
 
 
+def table_of_library():
+    path = pathlib.Path(__file__).resolve().parents[3] / "lib/toolbox/resolution/descriptor_biases.cpp"
+    rows = re.findall(r'\{"(\w+)",([^}]*)\}', path.read_text(encoding="utf-8"))
+    return {key: [float(cell.replace("none", "inf")) for cell in cells.split(",")] for key, cells in rows}
+
+
+def scans(paths):
+    """A file whose name has the blur of its scan after a "_" is a kind of its own; see README.md."""
+    kinds = sorted({pathlib.Path(path).stem.rsplit("_", 1)[-1] for path in paths})
+    found = {}
+    for number, kind in enumerate(kinds):
+        for key, rows in read([path for path in paths if pathlib.Path(path).stem.rsplit("_", 1)[-1] == kind], None).items():
+            found.setdefault(key, []).append({**rows, "kind": np.full(len(rows["truth"]), number)})
+    all_rows = {key: {name: np.concatenate([one[name] for one in list_]) for name in list_[0]} for key, list_ in found.items()}
+    # A volume that is off by 8 % is a scan whose threshold failed, as of single grains of 10 voxels with a blur of a voxel.
+    failed = np.abs(all_rows["volume"]["value"] / all_rows["volume"]["truth"] - 1) > 0.08
+    print(f"// {failed.sum()} of {len(failed)} scans failed")
+    for key, bias in table_of_library().items():
+        rows = all_rows[key]
+        good = np.isfinite(rows["value"] + rows["again"] + rows["scatter"] + rows["truth"]) & ~failed & (rows["across"] >= bias[1])
+        of = {name: column[good] for name, column in rows.items()}
+        size = size_of(key, of)
+        left = (of["truth"] - of["value"]) / size - terms(of, size) @ np.array(bias[2:6])
+        share, scatters, rest, above = widths(of, left, size)
+        parts = np.array([np.abs(of["value"] - of["again"]) / size, of["scatter"] / size, np.abs(of["value"]) / size / of["across"]])
+        groups = of["across"] + 1000 * of["kind"]
+        # No side becomes narrower than it was: the table was measured on other bodies.
+        old, new = (np.array([(np.array(one) @ parts)[groups == d].mean() for d in np.unique(groups)])
+                    for one in (bias[6:9], (share, scatters, rest)))
+        below, beyond = max(1.0, np.max(old / new)), max(1.0, np.max(bias[9] * old / (above * new)))
+        print(f'    {{"{key}", ' + ", ".join(told(number) for number in (
+            *bias[:6], below * share, below * scatters, below * rest, above * beyond / below)) + "},")
+
+
 def percent(values):
     return f"{100 * values:.2f}"
 
@@ -184,6 +223,24 @@ def table(paths):
                   f"{100 * inside.mean():.1f}")
 
 
+def judge(paths):
+    print("descriptor | voxels across | rows | raw error %, mean, rms | corrected error %, mean, rms | low, high: % from the "
+          "corrected value | covered %")
+    biases_ = table_of_library()
+    for key, rows in read(paths, None).items():
+        if key not in (*SHOWN[:-1], "feret_max", "feret_min"):
+            continue
+        for across in np.unique(rows["across"]):
+            of = {name: column[rows["across"] == across] for name, column in rows.items()}
+            size = np.ones(len(of["truth"])) if key.startswith("roundness") else np.abs(of["truth"])
+            value, low, high = corrected(key, biases_[key], of)
+            errors = [(one - of["truth"]) / size for one in (of["value"], value)]
+            errors = [f"{percent(one.mean())}, {percent(math.sqrt(np.mean(one ** 2)))}" for one in errors]
+            covered = 100 * ((low <= of["truth"]) & (of["truth"] <= high)).mean()
+            print(f"{key} | {across:.0f} | {len(value)} | " + " | ".join(errors) + f" | {percent(np.mean((low - value) / size))}, "
+                  f"{percent(np.mean((high - value) / size))} | " + ("" if np.isnan(value).all() else f"{covered:.0f}"))
+
+
 def each(paths):
     rows = read(paths, None)["area"]
     error = (rows["truth"] - rows["value"]) / rows["truth"]
@@ -194,5 +251,33 @@ def each(paths):
         print(f"{across:.0f} | " + " | ".join(percent(math.sqrt(np.mean(one[at] ** 2))) for one in (error, left)))
 
 
+def rank_correlation(one, other):
+    return np.corrcoef(one.argsort().argsort(), other.argsort().argsort())[0, 1] if len(one) > 2 else math.nan
+
+
+def cutoff(paths):
+    print("bodies, voxels across | kept | bodies % | volume % | mean sphericity - that of all | correlation with size | true one")
+    for path in paths:
+        with open(path, encoding="utf-8") as stream:
+            rows = [row for row in csv.DictReader(stream) if row["key"] in ("volume", "sphericity_wadell")]
+        of = {(row["body"], row["key"]): row for row in rows}
+        names = sorted({row["body"] for row in rows})
+
+        def column(key, name):
+            return np.array([float(of[body, key][name]) for body in names])
+
+        across, volume = column("volume", "across"), column("volume", "truth")
+        truth, raw = column("sphericity_wadell", "truth"), column("sphericity_wadell", "value")
+        corrected = column("sphericity_wadell", "corrected")
+        voxels = np.pi / 6 * across ** 3
+        chosen = [("true", truth, voxels > 0)]
+        chosen += [(f"raw, from {least} voxels on", raw, voxels >= least) for least in (100, 1000, 4000)]
+        chosen += [("raw, resolved", raw, np.isfinite(corrected)), ("corrected, resolved", corrected, np.isfinite(corrected))]
+        for name, values, kept in chosen:
+            print(f"{len(names)}, {across.min():.1f} to {across.max():.1f} | {name} | {100 * kept.mean():.0f} | "
+                  f"{100 * volume[kept].sum() / volume.sum():.0f} | {values[kept].mean() - truth.mean():+.4f} | "
+                  f"{rank_correlation(across[kept], values[kept]):+.2f} | {rank_correlation(across[kept], truth[kept]):+.2f}")
+
+
 if __name__ == "__main__":
-    {"biases": biases, "table": table, "each": each}[sys.argv[1]](sys.argv[2:])
+    {"biases": biases, "scans": scans, "table": table, "judge": judge, "each": each, "cutoff": cutoff}[sys.argv[1]](sys.argv[2:])
