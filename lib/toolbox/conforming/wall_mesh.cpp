@@ -333,12 +333,12 @@ bool WallMesh::flip(std::int32_t a, std::int32_t b) {
     return lengths > 0.0 ? x.dot(y) / lengths : -1.0;
   };
   // The new edge may bend by 60 degrees, or less than the old one.
-  constexpr double least_cosine = 0.5;
-  if (cosine(new_s, new_t) < std::min(least_cosine, cosine(old_s, old_t))) return false;
+  constexpr double sixty_degrees = 0.5;
+  if (cosine(new_s, new_t) < std::min(sixty_degrees, cosine(old_s, old_t))) return false;
   const double least = std::min({0.3, agreement({a, b, c}, old_s), agreement({b, a, d}, old_t)});
   if (std::min(agreement({a, d, c}, new_s), agreement({d, b, c}, new_t)) < least) return false;
   const Vector3 mean = old_s + old_t;
-  if (!(std::min(cosine(new_s, mean), cosine(new_t, mean)) > least_cosine)) return false;
+  if (!(std::min(cosine(new_s, mean), cosine(new_t, mean)) > sixty_degrees)) return false;
   for (const std::size_t triangle : {s, t}) {
     for (std::size_t k = 0; k < 3; ++k) remove(triangle, k);
   }
