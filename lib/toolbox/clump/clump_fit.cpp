@@ -129,6 +129,7 @@ class Growth {
         error_percent_(error_percent),
         smallest_(std::max(least_radius, 0.01 * options.smallest_radius_percent)),
         surface_(grain, execution),
+        volume_(volume_of(grain, execution)),
         judged_(area_uniform_samples(grain, judged)),
         depths_(options.inside ? area_uniform_samples(grain, depth_samples)
                                : std::vector<Vector3>()),
@@ -146,9 +147,12 @@ class Growth {
         sweep(fit_, 10);
       }
       result.spheres = fit_.spheres();
-      if (options_.inside) keep_inside(result.spheres);
-      result.stages.back() = {result.spheres.size(),
-                              union_distance(judged_, result.spheres, execution_).root_mean_square};
+      if (options_.inside) {
+        keep_inside(result.spheres);
+      } else {
+        match_volume(result.spheres);
+      }
+      result.stages.back() = {result.spheres.size(), rms_distance(result.spheres)};
       if (!is_target() || held.spheres().size() >= most_spheres() || meets(result.spheres)) break;
       // Refined spheres have a smaller distance, but may have a larger error of another kind.
       fit_ = held;
@@ -163,10 +167,11 @@ class Growth {
   std::size_t most_spheres() const {
     return static_cast<std::size_t>(is_target() ? options_.most_spheres : options_.sphere_count);
   }
+  double rms_distance(const std::vector<Sphere>& spheres) const {
+    return union_distance(judged_, spheres, execution_).root_mean_square;
+  }
   bool meets(const std::vector<Sphere>& spheres) const {
-    const double error =
-        error_percent_ ? error_percent_(spheres)
-                       : 100.0 * union_distance(judged_, spheres, execution_).root_mean_square;
+    const double error = error_percent_ ? error_percent_(spheres) : 100.0 * rms_distance(spheres);
     return error <= options_.max_error_percent;
   }
 
@@ -177,7 +182,7 @@ class Growth {
       const std::size_t count = fit_.spheres().size();
       if (count >= next_stage || count >= most_spheres()) {
         const std::vector<Sphere> spheres = let_down(fit_).spheres();
-        stages.push_back({count, union_distance(judged_, spheres, execution_).root_mean_square});
+        stages.push_back({count, rms_distance(spheres)});
         next_stage = count + std::max<std::size_t>(1, count / (is_target() ? 10 : 4));
         if (is_target() && meets(spheres)) break;
       }
@@ -282,6 +287,27 @@ class Growth {
                   spheres.end());
   }
 
+  /// Changes all radii by one length, so that the union has the grain's volume. The fit minimizes
+  /// distances, and its volume is off by some % with few spheres. Spheres that are too few to fill
+  /// the grain are left as they are, because larger ones would only bulge out.
+  void match_volume(std::vector<Sphere>& spheres) const {
+    constexpr int most_steps = 4;
+    constexpr double tolerance = 2e-4;  // of the volume; the union's mesh is not closer
+    constexpr double most_missing = 0.1;
+    std::vector<Sphere> matched = spheres;
+    for (int step = 0; step < most_steps; ++step) {
+      const IndexedMesh mesh = sphere_union_mesh(matched, execution_);
+      const MeshSums sums = mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), execution_);
+      const double missing = volume_ - sums.volume();
+      if (std::abs(missing) > most_missing * volume_) return;
+      if (std::abs(missing) <= tolerance * volume_) break;
+      // The area is the volume's derivative.
+      const double change = missing / sums.area();
+      for (Sphere& sphere : matched) sphere.radius = std::max(smallest_, sphere.radius + change);
+    }
+    spheres = std::move(matched);
+  }
+
   /// Removes the spheres that matter least and adds as many: one at first, and one more after each
   /// failure.
   void relocate() {
@@ -316,6 +342,7 @@ class Growth {
   const std::function<double(const std::vector<Sphere>&)>& error_percent_;
   double smallest_;  ///< radius
   MeshDistance surface_;
+  double volume_;
   std::vector<Vector3> judged_;
   PointBlocks depths_;  ///< of the surface, if spheres must be inside
   std::vector<Sphere> candidates_;
