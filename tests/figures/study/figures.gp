@@ -129,7 +129,7 @@ if (figure eq 'contacts') {
 if (figure eq 'packing') {
   set terminal svg size 1200,420 font 'sans,12' background 'white'
   set output 'packing.svg'
-  choices = '"scan_7228" "scan_100" "scan_500" "scan_1000" "least-squares_100" "least-squares_200" "contact_200"'
+  choices = system("tail -n +2 energies.csv | cut -d, -f1 | uniq")
   pick(k, name) = strcol(1) eq name ? column(k) : NaN
   set xlabel 'time, s'
   set key top right samplen 2 font ',10' noenhanced

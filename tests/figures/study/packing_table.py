@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """packing_table.py FOLDER [REFERENCE]: prints the results of the packings of yade_packing.sh in FOLDER, one
-row per choice of nodes: means over the seeds with their standard errors. The solid fraction is that of the
+row per choice of nodes: means over the seeds with their intervals of 95 % (Student's t). The solid fraction is that of the
 grains as scanned, below the height that 70 % of their centres are under. The true overlap is that of the
 deepest vertex of a scan in the other grain. The others' solid fractions are compared with REFERENCE, by
-default 7,228 nodes on the scan, start by start. Writes FOLDER/energies.csv, the means over the seeds
+default 7,228 nodes on the scan, start by start. Last it says how much of the scatter of single packings is
+noise: what remains if each packing is compared with the means of its nodes and of its start. Writes FOLDER/energies.csv, the means over the seeds
 against time."""
 import glob
 import json
@@ -13,7 +14,9 @@ import sys
 
 import numpy
 
-RADIUS, BOX, GRAVITY, DENSITY = 0.05, 0.42, 9.81, 2650.0
+RADIUS, GRAVITY, DENSITY = 0.05, 9.81, 2650.0
+# 97.5 % quantile of Student's t by the number of packings.
+STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365, 9: 2.306, 10: 2.262}
 
 
 class Distances:
@@ -50,9 +53,9 @@ def turns(quaternions):
                        ).transpose(2, 0, 1)
 
 
-def solid_fraction(distances, reach, places, matrices):
+def solid_fraction(distances, reach, places, matrices, box):
     height = numpy.sort(places[:, 2])[len(places) * 7 // 10]
-    points = numpy.random.RandomState(9).rand(100000, 3) * [BOX, BOX, height]
+    points = numpy.random.RandomState(9).rand(100000, 3) * [box, box, height]
     filled = numpy.zeros(len(points), bool)
     for place, matrix in zip(places, matrices):
         near = numpy.flatnonzero(((points - place) ** 2).sum(axis=1) < reach ** 2)
@@ -86,25 +89,47 @@ def measure(packing, distances, vertices):
     rows = energies(packing)
     poses = numpy.genfromtxt(packing + ".poses", delimiter=",", skip_header=1)
     with open(packing) as file:
-        cost = float(file.read().rsplit("#", 1)[1].split()[0])
+        footer = file.read().rsplit("#", 1)[1].split()
+    cost, box = float(footer[0]), float(footer[5])
     places, matrices = poses[:, :3], turns(poses[:, 3:])
     reach = numpy.sqrt((vertices ** 2).sum(axis=1).max())
     mass = distances.volume * DENSITY * len(places)
     return [cost, rows[-1, 1], rows[-1, 2], rows[-1, 3], rows[-1, 2] / (mass * GRAVITY) / RADIUS,
             100 * rows[-1, 4],
             100 * true_overlaps(distances, vertices, reach, places, matrices) / RADIUS,
-            solid_fraction(distances, reach, places, matrices)]
+            solid_fraction(distances, reach, places, matrices, box)]
 
 
 def mean_and_error(values):
     values = numpy.array(values)
-    error = values.std(axis=0, ddof=1) / numpy.sqrt(len(values)) if len(values) > 1 else numpy.nan
+    count = len(values)
+    error = (STUDENT.get(count, 1.96) * values.std(ddof=1) / numpy.sqrt(count) if count > 1 else numpy.nan)
     return "%.4g +- %.2g" % (values.mean(), error)
+
+
+def noise(values):
+    """Deviations of single packings, rows of one choice of nodes each, columns of one start each: the noise
+    of packing, and the deviation between the choices without it (two-way analysis of variance)."""
+    sets, starts = values.shape
+    rest = values - values.mean(axis=1, keepdims=True) - values.mean(axis=0) + values.mean()
+    within = (rest ** 2).sum() / ((sets - 1) * (starts - 1))
+    between = values.mean(axis=1).var(ddof=1) - within / starts
+    return numpy.sqrt(within), numpy.sqrt(max(0.0, between))
+
+
+def print_noise(results):
+    starts = sorted(set.intersection(*[set(seeds) for seeds in results.values()]))
+    if len(results) < 2 or len(starts) < 2:
+        return
+    print()
+    for name, k in (("kinetic, J", 1), ("potential, J", 2), ("mean height, R", 4), ("solid fraction", 7)):
+        within, between = noise(numpy.array([[seeds[s][k] for s in starts] for seeds in results.values()]))
+        print("%s: deviation by noise of packing %.3g, by the nodes %.3g" % (name, within, between))
 
 
 def main():
     folder = sys.argv[1]
-    reference = sys.argv[2] if len(sys.argv) > 2 else "scan_7228"
+    reference = sys.argv[2] if len(sys.argv) > 2 else "on-surface_7228"
     sets = {}
     for packing in sorted(glob.glob(os.path.join(folder, "*.csv.poses"))):
         name, seed = os.path.basename(packing)[:-len(".csv.poses")].rsplit("_", 1)
@@ -131,6 +156,7 @@ def main():
             name, len(seeds), " | ".join(mean_and_error([row[k] for row in seeds.values()])
                                          for k in range(8)),
             mean_and_error(against) if against else ""))
+    print_noise(results)
 
 
 main()

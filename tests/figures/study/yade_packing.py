@@ -94,7 +94,7 @@ if damping == 0 and friction == 0:
         sys.stdout.flush()
         os._exit(1)
 numpy.savetxt(output, rows, delimiter=",", header="time,kinetic,potential,elastic,overlap",
-              comments="", fmt="%.8g", footer="# %.4f ms a step" % (1e3 * cost * step / seconds))
+              comments="", fmt="%.8g", footer="# %.4f ms a step, box %.4f m" % (1e3 * cost * step / seconds, box))
 numpy.savetxt(output + ".poses", [[*body.state.pos, body.state.ori[3], *[body.state.ori[k] for k in range(3)]]
                                   for body in grains], delimiter=",", header="x,y,z,qw,qx,qy,qz",
               comments="", fmt="%.10g")
