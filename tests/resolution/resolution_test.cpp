@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/segmented_scan.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptor_table.h"
@@ -47,12 +49,15 @@ std::int64_t count_of(const std::vector<VoxelStretch>& voxels) {
   return count;
 }
 
-Resolution resolution_of(const IndexedMesh& body, double size, const VoxelPose& at) {
-  const IndexedMesh seen =
-      checked(surface_of_voxels(mesh_voxels(body, size, at), ResolutionOptions().smoothing, size));
+Resolution resolution_of(const std::vector<VoxelStretch>& voxels, double size) {
+  const IndexedMesh seen = checked(surface_of_voxels(voxels, ResolutionOptions().smoothing, size));
   ResolutionOptions options;
   options.voxel_size = size;
   return measure_resolution(seen, described(seen), options, one_thread);
+}
+
+Resolution resolution_of(const IndexedMesh& body, double size, const VoxelPose& at) {
+  return resolution_of(mesh_voxels(body, size, at), size);
 }
 
 const ResolvedValue& row_of(const Resolution& resolution, const std::string& key) {
@@ -186,6 +191,40 @@ TEST(Resolution, IntervalsCoverAndCorrectedValuesAreCloser) {
   for (const auto& [key, share] : most) {
     EXPECT_LT(left[key], share * raw[key]) << key;
   }
+}
+
+TEST(Resolution, IntervalsCoverSegmentedScans) {
+  std::mt19937_64 numbers(55);
+  const std::vector<std::string> keys = {"area",          "sphericity_wadell", "convexity",
+                                         "sdq_invariant", "roundness_wadell",  "feret_max"};
+  std::map<std::string, int> covered;
+  int scans = 0;
+  for (const auto& [name, body] : bodies()) {
+    const DetailedDescriptors truth = described(body);
+    std::map<std::string, double> values;
+    for (const DescriptorValue& row : list_descriptors(truth)) values[row.key] = row.value;
+    for (const int across : {15, 20, 30}) {
+      for (const double blur : {0.7, 1.0}) {
+        SCOPED_TRACE(name + ", " + std::to_string(across) + " voxels, blur " +
+                     std::to_string(blur));
+        const double size = truth.equivalent_diameter / across;
+        const Resolution found = resolution_of(
+            test::segmented_voxels(body, size, pose(scans), {blur, 0.1}, numbers), size);
+        EXPECT_NEAR(found.voxels_across, across, 0.05 * across);
+        ++scans;
+        for (const std::string& key : keys) {
+          const ResolvedValue& row = row_of(found, key);
+          if (!row.is_resolved()) {
+            EXPECT_LT(across, 16) << key;
+          }
+          if (!row.is_resolved() || (row.low <= values[key] && values[key] <= row.high)) {
+            ++covered[key];
+          }
+        }
+      }
+    }
+  }
+  for (const std::string& key : keys) EXPECT_GE(covered[key], 0.9 * scans) << key;
 }
 
 TEST(Resolution, RoundnessOfFewVoxelsAndRoughnessAreNotResolved) {

@@ -20,7 +20,8 @@ struct DescriptorBias {
   double floor_u;
   /// The interval of 95 % reaches below the corrected value by `share` of the change, `scatters`
   /// times the standard deviation of the poses, and `rest` of the value over the voxels across; and
-  /// above it by `above` times as much. Voxels hide detail, so that most errors have one sign.
+  /// above it by `above` times as much. It also holds what the blur of a scan and its segmentation
+  /// take away, of which labels show nothing. They hide detail, so that most errors have one sign.
   double share;
   double scatters;
   double rest;
