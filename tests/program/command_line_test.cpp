@@ -152,7 +152,7 @@ TEST_F(CommandLine, LogsAreShortAndTellSeconds) {
   expect_short("fragment " + sand_ + " -k 3 -o fragments");
   expect_short("grow one --templates -k 1 -n 60 -o chosen");
   // What is measured has more with -v.
-  for (const std::string call :
+  for (const std::string& call :
        {"describe " + sand_, "describe remesh.ply " + sand_, std::string("sample one"),
         std::string("sample out"), std::string("sample one out")}) {
     const auto count = expect_short(call);

@@ -332,9 +332,9 @@ ALL = [
     Advice("steps of voxels", together(npy("v.npy", lambda: balls(TWO[1:])), extracted("s.ply", lambda: balls(TWO[1:]), 0)),
            "describe s.ply", "steps of voxels.*(wscvt) (extract)", "\\2 v.npy out", "1 labels: 1 written"),
     Advice("larger cut-off", ellipsoid("s.ply", (1.0, 0.9, 0.8), 200), "describe s.ply", "larger (--roughness-cutoff)",
-           "describe s.ply \\1 2", "roughness Sq", gone="too long to measure roughness"),
+           "describe s.ply -v \\1 2", "roughness Sq", gone="too long to measure roughness"),
     Advice("smaller cut-off", ellipsoid("s.ply", (1.0, 0.5, 0.4), 20000), "describe s.ply", "smaller (--roughness-cutoff)",
-           "describe s.ply \\1 0.1", "roughness Sq"),
+           "describe s.ply -v \\1 0.1", "roughness Sq"),
     Advice("grid", ellipsoid("s.ply", (1.0, 0.9, 0.8)), "s.ply r.ply -n 60 --sdf g.npy --sdf-spacing 0.0001",
            "Give ([0-9.]+) or more, or 0", "s.ply r.ply -n 60 --sdf g.npy --sdf-spacing 0", "60 nodes"),
 ]
