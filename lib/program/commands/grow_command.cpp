@@ -87,7 +87,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
        "OUT gets a mesh per grain and grown.csv; of templates, meshes of the volume of a sphere of "
        "diameter 1, templates.csv (weights and sizes), sizes.csv and mercury_psd.csv (the size "
        "curve) and distances.csv. Meshes are in the principal frame. wscvt clump OUT --engine NAME "
-       "makes a folder in which an engine packs them.",
+       "packs them.",
        false,
        true});
   app.add_option(
