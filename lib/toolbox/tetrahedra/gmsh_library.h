@@ -13,11 +13,6 @@ struct GmshVolume {
   std::vector<std::size_t> corners;  ///< four per tetrahedron
 };
 
-/// Gmsh's ways to fill a surface, by their numbers. On most surfaces Hxt (Marot, Pellerin and
-/// Remacle 2019, Int. J. Numer. Meth. Eng. 117, 967-990) leaves the larger angles and takes three
-/// times as long.
-enum class GmshAlgorithm { Delaunay = 1, Hxt = 10 };
-
 /// Throws Error(InvalidInput) that says what to install, if Gmsh's library cannot be opened.
 void require_gmsh();
 
@@ -25,6 +20,6 @@ void require_gmsh();
 /// three per triangle. `edge`: largest wanted. The points keep their numbers. One thread works at a
 /// time, the others wait. Throws Error as require_gmsh, and NumericalFailure with Gmsh's words.
 GmshVolume gmsh_volume(std::vector<double> coordinates, std::vector<std::size_t> corners,
-                       double edge, GmshAlgorithm algorithm);
+                       double edge);
 
 }  // namespace wscvt

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -77,40 +76,6 @@ void measure(TetrahedralMesh& mesh) {
   }
 }
 
-/// Fills a surface by one way of Gmsh. `radius`: of the ball with its volume.
-TetrahedralMesh filled_by(const IndexedMesh& surface, double radius, double edge,
-                          GmshAlgorithm algorithm) {
-  const Vector3 centre = surface.points.front();
-  std::vector<double> coordinates;
-  for (const Vector3& p : surface.points) {
-    const Vector3 own = (p - centre) / radius;
-    coordinates.insert(coordinates.end(), own.data(), own.data() + 3);
-  }
-  std::vector<std::size_t> corners;
-  for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  const GmshVolume made =
-      gmsh_volume(std::move(coordinates), std::move(corners), edge / radius, algorithm);
-  TetrahedralMesh mesh;
-  mesh.surface = surface;
-  for (std::size_t i = mesh.surface.points.size(); i < made.coordinates.size() / 3; ++i) {
-    const double* const own = made.coordinates.data() + 3 * i;
-    mesh.surface.points.push_back(centre + radius * Vector3(own[0], own[1], own[2]));
-  }
-  const std::vector<Vector3>& points = mesh.surface.points;
-  for (std::size_t k = 0; k + 3 < made.corners.size(); k += 4) {
-    Tetrahedron t{};
-    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(made.corners[k + c]);
-    if (six_volumes(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]],
-                    points[t[3]] - points[t[0]]) < 0.0) {
-      std::swap(t[0], t[1]);
-    }
-    mesh.tetrahedra.push_back(t);
-  }
-  check_surface(mesh);
-  measure(mesh);
-  return mesh;
-}
-
 }  // namespace
 
 void require_tetrahedra() { require_gmsh(); }
@@ -120,8 +85,17 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   const double volume = volume_of(surface, execution);
   if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
   execution.report(0.0, "Filling with tetrahedra");
-  const double surface_edge = mean_edge_of(surface);
-  const double wanted = edge > 0.0 ? edge : surface_edge;
+  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
+  const double radius = equivalent_radius(volume);
+  const Vector3 centre = surface.points.front();
+  std::vector<double> coordinates;
+  for (const Vector3& p : surface.points) {
+    const Vector3 own = (p - centre) / radius;
+    coordinates.insert(coordinates.end(), own.data(), own.data() + 3);
+  }
+  std::vector<std::size_t> corners;
+  for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
+  const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
   // Regular ones have 6 sqrt(2) tetrahedra per edge cubed.
   const double expected = 6.0 * std::sqrt(2.0) * volume / (wanted * wanted * wanted);
   if (expected > most_tetrahedra) {
@@ -129,25 +103,27 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
            " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
            " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
   }
-  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
-  const double radius = equivalent_radius(volume);
-  // With edges .38 of those of a ball Hxt leaves an angle of .6 degrees, after 18 s
-  // instead of .5; .6 leaves 9 to 25 on three bodies, .65 leaves 19 to 29.
-  constexpr double least_share_for_hxt = 0.7;
-  std::array<GmshAlgorithm, 2> order = {GmshAlgorithm::Hxt, GmshAlgorithm::Delaunay};
-  if (wanted < least_share_for_hxt * surface_edge) std::swap(order[0], order[1]);
-  std::optional<TetrahedralMesh> best;
-  for (const GmshAlgorithm algorithm : order) {
-    const bool is_last = algorithm == order.back();
-    try {
-      TetrahedralMesh made = filled_by(surface, radius, wanted, algorithm);
-      if (!best || made.smallest_dihedral > best->smallest_dihedral) best = std::move(made);
-    } catch (const Error&) {
-      if (is_last && !best) throw;
-    }
-    if (best && best->smallest_dihedral >= good_dihedral) break;
+  const GmshVolume filled =
+      gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
+  TetrahedralMesh mesh;
+  mesh.surface = std::move(surface);
+  for (std::size_t i = mesh.surface.points.size(); i < filled.coordinates.size() / 3; ++i) {
+    const double* const own = filled.coordinates.data() + 3 * i;
+    mesh.surface.points.push_back(centre + radius * Vector3(own[0], own[1], own[2]));
   }
-  return std::move(*best);
+  const std::vector<Vector3>& points = mesh.surface.points;
+  for (std::size_t k = 0; k + 3 < filled.corners.size(); k += 4) {
+    Tetrahedron t{};
+    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(filled.corners[k + c]);
+    if (six_volumes(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]],
+                    points[t[3]] - points[t[0]]) < 0.0) {
+      std::swap(t[0], t[1]);
+    }
+    mesh.tetrahedra.push_back(t);
+  }
+  check_surface(mesh);
+  measure(mesh);
+  return mesh;
 }
 
 namespace {

@@ -37,9 +37,6 @@ inline constexpr NumberOption<double> tetrahedra_edge_option = {
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Both,    "inside the remesh, in the unit of the output. 0: as the remesh's edges"};
 
-/// Degrees. A surface is filled in a second way if a dihedral angle is smaller.
-inline constexpr double good_dihedral = 12.0;
-
 /// More are refused, because Gmsh cannot be stopped and needs minutes and gigabytes for them.
 inline constexpr double most_tetrahedra = 5e6;
 
@@ -49,8 +46,7 @@ void require_tetrahedra();
 /// Fills a closed outward mesh with tetrahedra, by Gmsh. The surface keeps its points and
 /// triangles to the bit, and inner points are added. `edge`: the longest wanted edge inside,
 /// length; 0: as on the surface. It is reached gradually from the surface's edges. The same input
-/// gives the same result. Of two ways of Gmsh the second is tried if the first leaves an angle
-/// below good_dihedral, and the better result is kept.
+/// gives the same result.
 ///
 /// Gmsh (Geuzaine and Remacle 2009, Int. J. Numer. Meth. Eng. 79, 1309-1331) is opened only here,
 /// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
