@@ -338,15 +338,14 @@ TEST_F(MeshIo, ReadsPointsWithoutFaces) {
   }
 }
 
-TEST_F(MeshIo, PassesOnPositionsThatAreNotFinite) {
+TEST_F(MeshIo, PassesOnPositionsThatAreNotFiniteAndWritesNone) {
   // They are for the mesh check to refuse, which can say which vertex it is.
-  IndexedMesh mesh = test::box(1, 1, 1);
-  mesh.points[3].y() = std::numeric_limits<double>::infinity();
-  mesh.points[4].y() = std::nan("");
-  write_mesh(mesh, path("a.ply"));
-  const IndexedMesh back = read_mesh(path("a.ply"));
-  EXPECT_TRUE(std::isinf(back.points[3].y()));
-  EXPECT_TRUE(std::isnan(back.points[4].y()));
+  std::ofstream(path("a.off")) << "OFF\n4 1 0\n0 0 0\n1 0 0\n0 inf 1\n0 nan 1\n3 0 1 2\n";
+  const IndexedMesh back = read_mesh(path("a.off"));
+  EXPECT_TRUE(std::isinf(back.points[2].y()));
+  EXPECT_TRUE(std::isnan(back.points[3].y()));
+  EXPECT_ERROR(write_mesh(back, path("b.off")), InvalidInput);
+  EXPECT_FALSE(fs::exists(path("b.off")));
 }
 
 TEST_F(MeshIo, ReadsFromAPipe) {

@@ -125,9 +125,9 @@ void Session::fill(std::vector<double>& coordinates, std::vector<std::size_t>& c
   set("General.Terminal", 0);
   set("General.NumThreads", 1);
   set("Mesh.MeshSizeMax", edge);
-  // Algorithm 10 (HXT) leaves smallest angles of 21 to 25 degrees on 20 remeshes instead of 11 to 21
-  // by Delaunay, but other tetrahedra each time in one process.
-  // By default Gmsh improves only tetrahedra of quality .3, which leaves angles of 12 degrees.
+  // Algorithm 10 (HXT) leaves smallest angles of 21 to 25 degrees on 20 remeshes instead of 11 to
+  // 21 by Delaunay, but other tetrahedra each time in one process. By default Gmsh improves only
+  // tetrahedra of quality .3, which leaves angles of 12 degrees.
   set("Mesh.OptimizeThreshold", 0.5);
   WSCVT_GMSH(library_, gmshModelAdd)("grain", &error_);
   check();
