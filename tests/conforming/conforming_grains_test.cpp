@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -290,7 +291,7 @@ TEST(ConformingGrains, WallsOfAFewFacesLeaveNoSlivers) {
 }
 
 TEST(ConformingGrains, PitsOfAVoxelLeaveNoNeedles) {
-  std::mt19937 random(3);
+  std::mt19937 random(static_cast<unsigned>(test::announced(3)));
   std::uniform_real_distribution<double> place(-1.0, 1.0);
   std::vector<Vector3> pits;
   for (int k = 0; k < 40; ++k) {

@@ -132,9 +132,10 @@ TEST_F(FabricOfAFile, GivesTheDiscOfTwoBallsInObliqueDirections) {
   EXPECT_GT(ratios.front(), 0.85);
   EXPECT_LT(ratios.back(), 1.15);
   EXPECT_LT(errors[12], 1.5);
-  // Standard uncertainties: the means are of the order of 1.
-  EXPECT_NEAR(std::log10(of_normals), 0.0, 1.5);
-  EXPECT_NEAR(std::log10(of_centres), 0.0, 2.0);
+  // Standard uncertainties: the means are of the order of 1. Those of ten times 24 other directions
+  // are 1.4 to 3.6 and 0.12 to 0.22.
+  EXPECT_NEAR(std::log10(of_normals), 0.0, 1.0);
+  EXPECT_NEAR(std::log10(of_centres), 0.0, 1.2);
 }
 
 // A grain inside another, and inside a cup: no projection of their wall tells its area.

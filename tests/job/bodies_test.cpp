@@ -296,7 +296,7 @@ TEST(Bodies, OfBothSidesOfWallsHavePoresAndBodiesInThem) {
 }
 
 // Reduced one by one, they share some corners of their wall, and overlap a little.
-TEST(Bodies, ThatOverlapInPartAreTold) {
+TEST(Bodies, ThatOverlapInPartAreToldApart) {
   IndexedMesh first = test::box(2, 2, 2);
   IndexedMesh second = test::moved(test::box(2, 2, 2), 1.0, {2, 0, 0});
   for (Vector3& p : second.points) {

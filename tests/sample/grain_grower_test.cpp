@@ -145,6 +145,7 @@ TEST(GrainGrower, JudgesAttemptsInDeviationsOfTheSample) {
     return distances.size() == 30;
   };
   grower.grow(0, judge);
+  ASSERT_EQ(distances.size(), 30U);
   for (std::size_t k = 0; k < 30; k += 3) {
     EXPECT_LE(distances[k], distances[k + 1]) << k;
     EXPECT_LE(distances[k + 1], distances[k + 2]) << k;
