@@ -11,6 +11,7 @@ import pytest
 
 import wscvt
 
+
 def scan_of_balls():
     """Grey values (nz, ny, nx) of two balls that touch, one alone and one of a second mineral."""
     z, y, x = np.indices((34, 36, 70)) + 0.5
