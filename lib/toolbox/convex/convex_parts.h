@@ -47,8 +47,9 @@ using ConvexParts = std::vector<IndexedMesh>;
 /// hull (see HullCost), by the plane whose two sides have the cheapest hulls (see best_cuts).
 /// Pieces are then joined in pairs, first the pair whose common hull adds the least cost. Then the
 /// planes are moved and turned as long as the cost decreases. Finally the planes cut the scan, and
-/// each part is the hull of its pieces of the scan, so the parts contain the whole scan. With K = 1
-/// the part is the hull of the scan. If `faces` limits a hull, the part is the hull of some of its
+/// each part is the hull of its pieces of the scan, so the parts contain the whole scan. make_parts
+/// then scales them to the grain's volume, so that the scan reaches out of them. With K = 1 the
+/// part is the hull of the scan. If `faces` limits a hull, the part is the hull of some of its
 /// points, and the other points lie outside (see measure_parts).
 ///
 /// `mesh` is closed, outward and free of self-intersections, with some thousand vertices at most,

@@ -84,13 +84,13 @@ struct Segmentation {
   std::uint64_t filled = 0;       ///< voxels of holes, which count as material
 };
 
-/// Grains that touch voxels that were not scanned (see scanned_region.h) are cut. They are left out
-/// as the dropped ones are, because a file of labels cannot tell them from whole ones.
+/// Grains that touch voxels that were not scanned (see segmentation_steps.h) are cut. They are left
+/// out as the dropped ones are, because a file of labels cannot tell them from whole ones.
 ///
 /// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
 /// the median of each voxel and its 26 neighbours, again if noise leaves one peak, the threshold
 /// with a correction of the blur (see level_mask.h), the wall of a container left out (see
-/// container_wall.h), unless a threshold is given the surface of each grain half way to its own
+/// segmentation_steps.h), unless a threshold is given the surface of each grain half way to its own
 /// grey value (see grain_plateaus.h), holes in the material filled, touching parts separated. A
 /// volume of two values is a mask; the larger value is the material, or the smaller one if it is
 /// dark. So is one of a value and NaN, which is void, and one of up to eight values, most of them
