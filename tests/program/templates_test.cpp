@@ -27,7 +27,7 @@ class Templates : public test::ProgramRun {
   }
 };
 
-TEST_F(Templates, WritesMeshesTablesAndAScript) {
+TEST_F(Templates, WritesMeshesAndTables) {
   write_scans(12);
   const Outcome outcome = run("grow --templates scans -k 4 -n 60 -o a --seed 2 -t 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;

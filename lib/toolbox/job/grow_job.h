@@ -49,8 +49,8 @@ void check_job(const GrowJob& job);
 /// Throws Error(InvalidInput) if a grown grain's file would replace one of the real grains' files.
 void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real);
 
-/// Makes the grains: a file each, grown.csv with a row each, and for .ply a script for Yade. Throws
-/// as run_job and GrainGrower, and for the first grain that cannot be made.
+/// Makes the grains: a file each, and grown.csv with a row each. Throws as run_job and GrainGrower,
+/// and for the first grain that cannot be made.
 GrownSample grow_grains(const GrowJob& job, RealGrains real, const SampleGrids& grids,
                         const JobHost& host);
 

@@ -44,9 +44,9 @@ struct MadeTemplates {
 void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample);
 
 /// Chooses the templates and writes a mesh of each, templates.csv, sizes.csv and distances.csv, and
-/// mercury_psd.csv for MercuryDPM. `read` returns the closed mesh of a
-/// file of the sample, on several threads at once. Throws as run_job and choose_templates, and for
-/// the first template that cannot be made.
+/// mercury_psd.csv for MercuryDPM. `read` returns the closed mesh of a file of the sample, on
+/// several threads at once. Throws as run_job and choose_templates, and for the first template that
+/// cannot be made.
 MadeTemplates make_templates(
     const TemplateJob& job, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
