@@ -27,12 +27,12 @@ struct FittedSpheres {
 /// principal axes. Bodies in other poses then get the same spheres.
 ///
 /// Spheres are added one by one, and all are refined after each (see SphereFit). Each added sphere
-/// touches the surface from within and lowers the energy most. At first a
-/// sphere that bulges out costs eight times what a gap costs. Then the least important spheres are
-/// moved to better places as long as that helps, and the weight of eight is reduced to one. In the
-/// end all radii change by one length, so that the union has the grain's volume. They do not if the
-/// volume is off by more than 10 %. With `options.inside` spheres stay inside instead. The result
-/// has fewer spheres than asked for only if no more of the smallest radius fit inside.
+/// touches the surface from within and lowers the energy most. At first a sphere that bulges out
+/// costs eight times what a gap costs. Then the least important spheres are moved to better places
+/// as long as that helps, and the weight of eight is reduced to one. In the end all radii change by
+/// one length, so that the union has the grain's volume. They do not if the volume is off by more
+/// than 10 %. With `options.inside` spheres stay inside instead. The result has fewer spheres than
+/// asked for only if no more of the smallest radius fit inside.
 ///
 /// With an allowed error, `error_percent` returns the error of spheres; empty: the rms distance. If
 /// the refined spheres do not meet it, more are added.

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/segmentation_steps.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "toolbox/volume/itk_filters.h"
+#include "toolbox/volume/segmentation_steps.h"
 
 namespace wscvt {
 
