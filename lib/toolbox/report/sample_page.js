@@ -404,8 +404,9 @@ function errors(name) {
   }
   const rows = [["nodes", "median_percent", "percent_90", "voxels_median_percent",
                  "nodes_resolved"]];
+  const resolved = found(enough) ? Math.round(enough) : null;
   levels.nodes.forEach((n, k) =>
-      rows.push([n, row.median[k], row.percent_90[k], voxelError, Math.round(enough)]));
+      rows.push([n, row.median[k], row.percent_90[k], voxelError, resolved]));
   return {svg: svgOf(body), rows: rows};
 }
 
