@@ -50,6 +50,7 @@ SliceImage read_bmp(const std::string& path, bool with_content) {
   if (file_bytes(path, offset)->read(rows.data(), rows.size()) < rows.size()) {
     refuse_volume(path, "was changed while it was read. Run the command again.");
   }
+  image.content.reserve(width * height);
   const std::size_t step = bits / 8;
   for (std::size_t y = 0; y < height; ++y) {
     const char* const row = rows.data() + (is_from_above ? y : height - 1 - y) * row_bytes;

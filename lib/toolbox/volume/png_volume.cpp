@@ -3,12 +3,11 @@
 #include <png.h>
 #endif
 
-#include <algorithm>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <new>
-#include <utility>
 
 #include "toolbox/volume/image_stack.h"
 #include "toolbox/volume/volume_formats.h"
@@ -45,6 +44,14 @@ class PngFile {
   ~PngFile() { close(); }
 
   const SliceImage& form() const { return form_; }
+
+  /// Throws Error(InputOutput) if the file is too short for the size that it gives.
+  void check_size() const {
+    const auto row_bits = static_cast<std::uint64_t>(form_.width) * form_.channels *
+                          static_cast<std::uint64_t>(bits_);
+    check_voxel_bytes((row_bits + 7) / 8 * static_cast<std::uint64_t>(form_.height),
+                      file_size(path_), Packing::Deflate, path_);
+  }
 
   /// Returns the rows. An interlaced image is complete only after its last pass, each of which
   /// reads over the rows of the pass before. Throws Error(InputOutput).
@@ -109,6 +116,7 @@ class PngFile {
 
 SliceImage read_png(const std::string& path, bool with_content) {
   PngFile file(path);
+  file.check_size();
   SliceImage image = file.form();
   if (with_content) image.content = file.rows();
   return image;
