@@ -256,7 +256,7 @@ TEST_F(MeshFormats, OfFiniteElementsNameTheirGroups) {
         {"new.msh",
          "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"a grain\"\n"
          "$EndPhysicalNames\n$Entities\n1 1 3 0\n1 0 0 0 0\n7 0 0 0 1 0 0 0 2 1 -1\n"
-         "1 0 0 0 1 1 0 1 7 1 7\n2 0 0 0 0 1 1 1 9 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n"
+         "1 0 0 0 1 1 0 1 7 1 7\n2 0 0 0 0 1 1 1 -9 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n$Nodes\n"
          "1 5 1 5\n2 1 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 0\n$EndNodes\n"
          "$Elements\n4 4 1 4\n2 1 3 1\n1 1 2 5 3\n2 1 2 1\n2 1 2 4\n2 2 2 1\n3 1 3 4\n"
          "2 3 2 1\n4 2 3 4\n$EndElements\n"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <optional>
@@ -189,7 +190,8 @@ class GmshReader {
       const std::int64_t surface = whole(fields);
       point(fields);  // the ends of its box
       point(fields);
-      if (whole(fields) > 0) group_of_surface_[surface] = whole(fields);
+      // A minus turns the surface in its group.
+      if (whole(fields) > 0) group_of_surface_[surface] = std::abs(whole(fields));
     }
   }
 
