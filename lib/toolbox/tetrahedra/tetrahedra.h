@@ -52,13 +52,13 @@ void require_tetrahedra();
 /// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
 /// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0, for one that
 /// needs more than most_tetrahedra, and for a mesh without volume; NumericalFailure if Gmsh cannot
-/// fill the mesh, as when it intersects itself; Cancelled before the work.
+/// fill the mesh, as when it intersects itself; Cancelled before each way.
 TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
                               const Execution& execution = Execution());
 
 /// Fills several bodies, each by itself. Where two have triangles of the same points, to the bit,
 /// they share them. `kind` and `names` are for files and messages. Throws Error as above, with the
-/// name of the body.
+/// name of the body, and InvalidInput without a body.
 TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std::string& kind,
                               const std::vector<std::string>& names, double edge,
                               const Execution& execution = Execution());
