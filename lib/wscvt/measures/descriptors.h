@@ -188,9 +188,8 @@ struct Roughness {
   double form_leak = 0.0;  ///< estimated part of Sq that is curved form, not roughness; length
 };
 
-/// Every shape descriptor of a closed, outward mesh. Formula and source are here or in the file
-/// that computes it: form_axes.h, feret_diameters.h, inscribed_sphere.h, orientation_tensor.h,
-/// roundness.h, roughness.h. lib/doc/descriptors.md lists all in one table.
+/// Every shape descriptor of a closed, outward mesh. Formula and source are here or in
+/// descriptor_steps.h. lib/doc/descriptors.md lists all in one table.
 struct DetailedDescriptors {
   ShapeDescriptors basic;
   /// Diameter of the sphere of equal volume, (6 V / pi)^(1/3): the nominal diameter of Wadell

@@ -14,7 +14,7 @@ namespace wscvt {
 ///   inside it are pores or inclusions, parts outside are other bodies;
 /// - if more than two faces meet in an edge, flaps and internal walls are dropped and sheets
 ///   separated (see repair_steps.h); the largest separated part is kept;
-/// - faces are turned outward and holes are filled (see holes.h);
+/// - faces are turned outward and holes are filled (see repair_steps.h);
 /// - if fans of faces touch only in one vertex, each fan gets its own vertex.
 /// A clean scan does not change. Voxel steps are reported and stay.
 ///
