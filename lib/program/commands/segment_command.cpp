@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "program/arguments/common_arguments.h"
 #include "program/arguments/output_paths.h"
@@ -87,7 +88,8 @@ int run(const SegmentArguments& arguments) {
       refuse("\"" + page + "\" is no name for a page. Give a name that ends in .html.");
     }
     // Nobody gave this name, so the file may be anything.
-    if (arguments.page.empty() && std::filesystem::is_regular_file(page) &&
+    std::error_code unknown;  // check_output_paths tells what is wrong with the folder
+    if (arguments.page.empty() && std::filesystem::is_regular_file(page, unknown) &&
         !is_segmentation_page(page)) {
       refuse(
           "\"" + page +
