@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class Tutorial : public test::ProgramRun {
  protected:
   /// Runs the lines of a document of lib/doc that begin with the program; gives their number. If
-  /// `small`, -n 500 is -n 12 and --nodes 300 is --nodes 40 in them.
+  /// `small`, they make clumps of 2 spheres, 12 grains, and meshes of 40 nodes.
   int run_commands(const std::string& document, bool small) {
     std::ostringstream text;
     text << std::ifstream(fs::path(WSCVT_MESHES_DIR).parent_path() / "lib/doc" / document).rdbuf();
@@ -26,8 +26,11 @@ class Tutorial : public test::ProgramRun {
     for (std::string line; std::getline(lines, line);) {
       if (line.rfind(program, 0) != 0) continue;
       ++commands;
-      if (small) line = std::regex_replace(line, std::regex("-n 500"), "-n 12");
-      if (small) line = std::regex_replace(line, std::regex("--nodes 300"), "--nodes 40");
+      if (small) {
+        line = std::regex_replace(line, std::regex("-k 12"), "-k 2");
+        line = std::regex_replace(line, std::regex("-k 500"), "-k 12");
+        line = std::regex_replace(line, std::regex("-n 300"), "-n 40");
+      }
       const Outcome outcome = run(line.substr(program.size()));
       EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.errors;
       EXPECT_EQ(outcome.errors, "") << line;
