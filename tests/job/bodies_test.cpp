@@ -14,10 +14,13 @@
 
 #include "grains/marching_cubes.h"
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
+#include "toolbox/job/extract_job.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {
@@ -91,6 +94,34 @@ TEST(Bodies, ThatCutThroughEachOtherOrAreOpenLieSideBySide) {
   EXPECT_EQ(bodies[0].pores, 0U);
   EXPECT_EQ(bodies[1].boundary_edges, 3U);
   EXPECT_EQ(bodies[1].volume, 0.0);
+}
+
+class BodiesOfAFile : public test::FileFolder {
+ protected:
+  std::vector<std::string> warnings_of(const IndexedMesh& mesh) const {
+    write_mesh(mesh, path("a.ply"));
+    return BodyGrains(path("a.ply"), 0.0, Execution(1)).warnings();
+  }
+};
+
+TEST_F(BodiesOfAFile, NameOneSpikeAndCountTheBodiesThatHaveOne) {
+  IndexedMesh mesh = ball(1.0, {0, 0, 0});
+  for (const double x : {4.0, 8.0, 12.0}) mesh = test::joined(mesh, ball(1.0, {x, 0, 0}));
+  EXPECT_TRUE(warnings_of(mesh).empty());
+  const std::size_t a_ball = mesh.points.size() / 4;
+  // The highest vertex of the second and of the third ball, at eight radii.
+  std::size_t highest = 0;
+  for (std::size_t v = 0; v < a_ball; ++v) {
+    if (mesh.points[v].z() > mesh.points[highest].z()) highest = v;
+  }
+  for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
+    mesh.points[k * a_ball + highest].z() = 8.0;
+    const std::vector<std::string> warnings = warnings_of(mesh);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].rfind("A vertex of body 2 lies at (", 0), 0U) << warnings[0];
+    EXPECT_EQ(warnings[0].find("1 other body has such a vertex.") != std::string::npos, k == 2)
+        << warnings[0];
+  }
 }
 
 TEST(Bodies, ThatTouchInAVertexAreTwo) {

@@ -794,6 +794,7 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
   }
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t outer = 0; outer < bodies.size(); ++outer) {
+    execution.report(1.0, "Splitting the mesh");
     if (!bodies[outer].is_closed()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;

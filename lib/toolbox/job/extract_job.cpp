@@ -25,6 +25,7 @@
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
+#include "wscvt/repair/scan_advice.h"
 #include "wscvt/repair/stray_vertex.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
@@ -158,16 +159,9 @@ BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execu
     const MeshBody& body = bodies_[k];
     if (body.is_closed() && body.volume >= 0.01 * smallest * largest) taken_.push_back(k);
     (body.is_closed() ? closed : open) += static_cast<double>(body.mesh.triangles.size());
-    const StrayVertex stray = find_stray_vertex(body.mesh);
-    if (stray.count == 0) continue;
-    const Vector3& p = stray.place;  // the body has its own numbers of vertices
-    warnings_.push_back(
-        "A vertex of body " + std::to_string(k + 1) + " lies at (" + format_number(p.x()) + ", " +
-        format_number(p.y()) + ", " + format_number(p.z()) + "), " +
-        format_number(stray.distance, 2) + " from its nearest neighbour" +
-        (stray.count == 1 ? "" : ", and " + std::to_string(stray.count - 1) + " more are like it") +
-        ". Check that it belongs to the body.");
   }
+  const std::string stray = stray_vertices();
+  if (!stray.empty()) warnings_.push_back(stray);
   if (open == 0.0) return;
   left_out_ = open / (open + closed);
   warnings_.push_back(
@@ -175,6 +169,26 @@ BodyGrains::BodyGrains(std::string path, double smallest, const Execution& execu
       " of the faces. They are only listed, not written. If their open edges lie on each other, "
       "merge the corners, in MeshLab by Filters > Cleaning and Repairing > Merge Close Vertices. "
       "wscvt batch --parts fills small holes.");
+}
+
+std::string BodyGrains::stray_vertices() const {
+  std::string text;
+  std::size_t others = 0;
+  for (const std::size_t k : taken_) {
+    const StrayVertex stray = find_stray_vertex(bodies_[k].mesh);
+    if (stray.count == 0) continue;
+    if (!text.empty()) {
+      ++others;
+      continue;
+    }
+    // The body has its own numbers of vertices.
+    text = stray_vertex_sentence("A vertex of body " + std::to_string(k + 1), stray.place,
+                                 stray.distance) +
+           " Check that it belongs to the body.";
+  }
+  if (others == 0) return text;
+  return text + " " + std::to_string(others) +
+         (others == 1 ? " other body has such a vertex." : " other bodies have such vertices.");
 }
 
 std::string BodyGrains::name(std::size_t grain) const { return name_of(taken_[grain]); }

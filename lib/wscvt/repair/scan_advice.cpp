@@ -46,11 +46,17 @@ std::string merged_warning(std::size_t corners, double distance) {
          " from others and were merged with them.";
 }
 
+std::string stray_vertex_sentence(const std::string& vertex, const Vector3& place,
+                                  double distance) {
+  return vertex + " lies at (" + format_number(place.x()) + ", " + format_number(place.y()) + ", " +
+         format_number(place.z()) + "), " + format_number(distance, 2) +
+         " from its nearest neighbour.";
+}
+
 std::string stray_vertex_sentence(const MeshCheckReport& report) {
-  const Vector3& p = report.stray_place;
-  return "Vertex " + std::to_string(report.stray_vertex) + ", counted from 0, lies at (" +
-         format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) + "), " +
-         format_number(report.stray_distance, 2) + " from its nearest neighbour.";
+  return stray_vertex_sentence(
+      "Vertex " + std::to_string(report.stray_vertex) + ", counted from 0,", report.stray_place,
+      report.stray_distance);
 }
 
 namespace {

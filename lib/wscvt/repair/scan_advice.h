@@ -34,8 +34,10 @@ Sentence open_seam_sentence(double distance);
 /// `distance` in the mesh's length.
 std::string merged_warning(std::size_t corners, double distance);
 
-/// Returns a sentence on the stray vertex of a scan.
+/// Returns a sentence on the stray vertex of a scan (see stray_vertex.h), or on one that is called
+/// `vertex`; `distance` from its nearest neighbour, length.
 std::string stray_vertex_sentence(const MeshCheckReport& report);
+std::string stray_vertex_sentence(const std::string& vertex, const Vector3& place, double distance);
 
 /// Whether a closed mesh consists of voxel faces: every face is perpendicular to an axis, and there
 /// are at least 4 planes along each axis and 18 in total, so that a box and simple parts do not
