@@ -34,6 +34,33 @@ TEST(DescriptorTable, KeysAreDistinctLowerCaseNames) {
   expect_distinct_names(list_descriptors(DetailedDescriptors()));
 }
 
+// Settings of a grain are numbers in brackets.
+TEST(DescriptorTable, WordsAreLabelsWithoutSettings) {
+  DetailedDescriptors one;
+  DetailedDescriptors other;
+  one.roughness.cutoff = 0.25;
+  other.roughness.cutoff = 0.75;
+  const auto first = list_descriptors(one);
+  const auto second = list_descriptors(other);
+  std::size_t different = 0;
+  std::size_t read_first = 0;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const std::string words = descriptor_words(first[k].key);
+    EXPECT_EQ(first[k].label.rfind(words.substr(0, words.size() - 1), 0), 0U) << words;
+    if (first[k].label != second[k].label) {
+      ++different;
+      EXPECT_EQ(words.find("cut-off 0"), std::string::npos);
+      EXPECT_LT(words.size(), first[k].label.size());
+    }
+    if (is_read_first(first[k].key)) ++read_first;
+  }
+  EXPECT_GT(different, 0U);
+  EXPECT_EQ(read_first, 5U);
+  EXPECT_EQ(descriptor_words("roundness_wadell"), "roundness (Wadell, by turn)");
+  EXPECT_EQ(descriptor_words("sphericity_wadell"), "sphericity (Wadell)");
+  EXPECT_EQ(descriptor_words("weight"), "");
+}
+
 TEST(DescriptorTable, SameKeysForTheSameDescriptors) {
   DetailedDescriptors detailed;
   detailed.basic = describe_shape(test::box(1, 2, 3), Execution(1));

@@ -36,18 +36,12 @@ constexpr const char* page_style =
     "margin-left: 0.5em; font-size: 0.9em; } @media print { button, select, input { display: none; "
     "} }</style>\n";
 
-/// Returns the words for a column of a table: the label of a descriptor without the settings of its
-/// grain (ball, cut-off), else the column's name with spaces.
+/// Returns the words for a column of a table: those of a descriptor, else the column's name with
+/// spaces.
 std::string words_of(const std::string& column) {
-  static const std::vector<DescriptorValue> known = list_descriptors(DetailedDescriptors());
-  for (const DescriptorValue& one : known) {
-    if (one.key != column) continue;
-    const std::size_t settings =
-        std::min(one.label.find(", balls of"), one.label.find(" (cut-off"));
-    const bool is_in_brackets = settings < one.label.size() && one.label[settings] == ',';
-    return one.label.substr(0, settings) + (is_in_brackets ? ")" : "");
-  }
-  std::string words = column;
+  std::string words = descriptor_words(column);
+  if (!words.empty()) return words;
+  words = column;
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }

@@ -11,6 +11,7 @@
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/report.h"
@@ -20,21 +21,11 @@ namespace wscvt {
 namespace {
 
 /// Descriptors of the terminal's table. The files contain all descriptors.
-constexpr const char* main_columns[] = {"volume",
-                                        "area",
-                                        "equivalent_diameter",
-                                        "sphericity_wadell",
-                                        "convexity",
-                                        "aspect_ratio_box",
-                                        "zingg_elongation_box",
-                                        "zingg_flatness_box",
-                                        "roundness_wadell",
-                                        "sdq_invariant",
-                                        "sq"};
-
 bool is_main(const std::string& name) {
-  return std::find(std::begin(main_columns), std::end(main_columns), name) !=
-         std::end(main_columns);
+  constexpr const char* others[] = {"volume",           "area",          "equivalent_diameter",
+                                    "aspect_ratio_box", "sdq_invariant", "sq"};
+  return is_read_first(name) ||
+         std::find(std::begin(others), std::end(others), name) != std::end(others);
 }
 
 /// Of levels, also the errors of the remesh itself, not of a descriptor.
@@ -44,10 +35,7 @@ bool is_main_level(const std::string& name) {
 
 /// Columns that a person reads first.
 bool is_first_read(const std::string& name) {
-  constexpr const char* columns[] = {
-      "sphericity_wadell", "convexity",    "zingg_elongation_box", "zingg_flatness_box",
-      "roundness_wadell",  "rms_distance", "contact_error_mean"};
-  return std::find(std::begin(columns), std::end(columns), name) != std::end(columns);
+  return is_read_first(name) || name == "rms_distance" || name == "contact_error_mean";
 }
 
 using Rows = std::vector<std::vector<std::string>>;

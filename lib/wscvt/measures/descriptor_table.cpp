@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -104,6 +105,23 @@ std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& d) {
   rows.push_back({"flakiness", "flakiness (f1-f2)/f1", "", d.orientation.flakiness, false});
   rows.push_back({"rodness", "rodness (f2-f3)/f1", "", d.orientation.rodness, false});
   return rows;
+}
+
+std::string descriptor_words(const std::string& key) {
+  for (const DescriptorValue& one : list_descriptors(DetailedDescriptors())) {
+    if (one.key != key) continue;
+    const std::size_t settings =
+        std::min(one.label.find(", balls of"), one.label.find(" (cut-off"));
+    const bool is_in_brackets = settings < one.label.size() && one.label[settings] == ',';
+    return one.label.substr(0, settings) + (is_in_brackets ? ")" : "");
+  }
+  return "";
+}
+
+bool is_read_first(std::string_view key) {
+  constexpr std::string_view keys[] = {"sphericity_wadell", "convexity", "zingg_elongation_box",
+                                       "zingg_flatness_box", "roundness_wadell"};
+  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 namespace {

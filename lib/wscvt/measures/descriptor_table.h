@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wscvt/measures/descriptors.h"
@@ -34,6 +35,14 @@ struct DescriptorComparison {
 /// (see DetailedDescriptors::has_roughness and has_radius) are NaN.
 std::vector<DescriptorValue> list_descriptors(const ShapeDescriptors& descriptors);
 std::vector<DescriptorValue> list_descriptors(const DetailedDescriptors& descriptors);
+
+/// Returns a descriptor's label without the settings of one grain, which are the radius of the
+/// balls and the cut-off length; empty if no descriptor has this key.
+std::string descriptor_words(const std::string& key);
+
+/// Whether a descriptor of form is one of those that a person reads first, which summaries show:
+/// sphericity, convexity, elongation, flatness and roundness.
+bool is_read_first(std::string_view key);
 
 /// Compares row by row. An error in per cent has no meaning if zero is an ordinary value, or if the
 /// reference is near zero: below a thousandth of 1, or of the largest value with its unit. Throws

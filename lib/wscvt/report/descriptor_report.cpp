@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -64,20 +63,12 @@ Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
   return report;
 }
 
-/// Descriptors that a person reads first. The whole log and the files have all.
-constexpr const char* first_read[] = {"volume",
-                                      "area",
-                                      "sphericity_wadell",
-                                      "convexity",
-                                      "zingg_elongation_box",
-                                      "zingg_flatness_box",
-                                      "roundness_wadell"};
-
-/// Returns the rows of a log, all or those that a person reads first.
+/// Returns the rows of a log, all or those that a person reads first. The whole log and the files
+/// have all.
 template <class Row>
 std::vector<Row> shown_rows(std::vector<Row> rows, bool all) {
   const auto is_left_out = [](const Row& row) {
-    return std::find(std::begin(first_read), std::end(first_read), row.key) == std::end(first_read);
+    return row.key != "volume" && row.key != "area" && !is_read_first(row.key);
   };
   if (!all) rows.erase(std::remove_if(rows.begin(), rows.end(), is_left_out), rows.end());
   return rows;
