@@ -270,6 +270,13 @@ TEST_F(MeshFormats, OfFiniteElementsNameTheirGroups) {
     EXPECT_EQ(read.named_faces[0].names, (std::vector<std::string>{"a grain", "9", ""}));
     EXPECT_EQ(read.named_faces[0].of_face, expected);
   }
+  // A face of no group before one group is a set too, as behind it.
+  const MeshFile first = read_mesh_file(file(
+      "first.inp",
+      "*Node\n" + commas + "*Element, type=S3\n4,2,3,4\n*Element, type=S3, elset=core\n2,1,2,4\n"));
+  ASSERT_EQ(first.named_faces.size(), 1U);
+  EXPECT_EQ(first.named_faces[0].names, (std::vector<std::string>{"", "core"}));
+  EXPECT_EQ(first.named_faces[0].of_face, (std::vector<std::int32_t>{0, 1}));
 }
 
 TEST_F(MeshFormats, ThatWouldFillTheMemoryAreRefused) {

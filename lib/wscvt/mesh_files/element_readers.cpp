@@ -54,7 +54,8 @@ class ElementMesh {
     FaceNames names;
     std::size_t begin = 0;
     std::size_t group = 0;
-    if (!groups_.front().second.empty()) names.begin(groups_.front().second);
+    // Faces of no group are a set without a name, wherever they stand.
+    names.begin(groups_.front().second);
     for (std::size_t face = 0; face < ends_.size(); ++face) {
       const std::size_t end = ends_[face];
       if (face == groups_[group].first) {
