@@ -136,7 +136,8 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  std::vector<std::string> lines = {end_line(job, end)};
+  print({end_line(job, end)}, quiet);  // also if the engine's files cannot be written
+  std::vector<std::string> lines;
   if (!arguments.engine.empty() && arguments.shard.count == 1) {
     const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame, density);
     lines.push_back("Pack them: cd " + folders_of(job).front().path() + " && " + start);

@@ -149,7 +149,8 @@ bool is_cut(const std::string& path) {
   if (std::find(std::begin(texts), std::end(texts), ending_of(path)) == std::end(texts)) {
     return false;
   }
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return false;  // the machine refuses it, which says nothing of its end
   file.seekg(-1, std::ios::end);
   return file.get() != '\n';
 }

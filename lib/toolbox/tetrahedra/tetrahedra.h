@@ -52,7 +52,7 @@ void require_tetrahedra();
 /// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
 /// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0, for one that
 /// needs more than most_tetrahedra, and for a mesh without volume; NumericalFailure if Gmsh cannot
-/// fill the mesh, as when it intersects itself; Cancelled before each way.
+/// fill the mesh, as when it intersects itself; Cancelled before the work.
 TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
                               const Execution& execution = Execution());
 
