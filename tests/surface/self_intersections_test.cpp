@@ -136,6 +136,31 @@ TEST(SelfIntersections, OfSomeTrianglesAreThosePairsThatHaveOne) {
   }
 }
 
+// The boxes of the long ones would fill too many cells of the short ones' size.
+TEST(SelfIntersections, OfLongAmongManyShortTrianglesAreAllFound) {
+  std::mt19937_64 random(test::announced(21));
+  std::uniform_real_distribution<double> place(-1.0, 1.0);
+  const auto point = [&]() { return Vector3(place(random), place(random), place(random)); };
+  IndexedMesh mesh;
+  for (int t = 0; t < 1500; ++t) {
+    const double size = t % 30 == 0 ? 1.0 : 0.02;
+    const Vector3 middle = (1.0 - size) * point();
+    const auto corner = static_cast<std::int32_t>(mesh.points.size());
+    for (int k = 0; k < 3; ++k) mesh.points.emplace_back(middle + size * point());
+    mesh.triangles.push_back({corner, corner + 1, corner + 2});
+  }
+  std::vector<TrianglePair> expected;
+  for (std::int32_t a = 0; a < 1500; ++a) {
+    for (std::int32_t b = a + 1; b < 1500; ++b) {
+      if (triangles_meet(mesh.points, mesh.triangles[a], mesh.triangles[b])) {
+        expected.emplace_back(a, b);
+      }
+    }
+  }
+  EXPECT_GT(expected.size(), 100U);
+  EXPECT_EQ(self_intersections(mesh), expected);
+}
+
 TEST(SelfIntersections, StopsWhenCancelled) {
   const IndexedMesh mesh = test::sphere(6);
   test::expect_to_be_stopped(

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "wscvt/base/counting_sort.h"
+#include "wscvt/base/box_grid.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
@@ -73,78 +73,6 @@ std::vector<Vector3> area_uniform_samples(const IndexedMesh& mesh, std::size_t c
 
 namespace {
 
-/// Balls about points, and a grid of the cells that each reaches.
-class BallGrid {
- public:
-  /// `squares`: of the radii.
-  BallGrid(const std::vector<Vector3>& points, const std::vector<double>& squares) {
-    low_ = points.front();
-    Vector3 high = low_;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vector3 reach = Vector3::Constant(std::sqrt(squares[i]));
-      low_ = low_.cwiseMin(points[i] - reach);
-      high = high.cwiseMax(points[i] + reach);
-    }
-    constexpr int cells_a_side = 64;                       // half or twice as many take as long
-    const std::size_t most_entries = 100 * points.size();  // usual are 10; then a tree is faster
-    const double extent = (high - low_).maxCoeff();
-    cells_a_length_ = extent > 0.0 ? cells_a_side / extent : 0.0;
-    most_ = cell_at(high);
-    const auto visit_cells = [&](std::size_t i, const auto& visit) {
-      const Vector3 reach = Vector3::Constant(std::sqrt(squares[i]));
-      for_cells(cell_at(points[i] - reach), cell_at(points[i] + reach), visit);
-    };
-    std::size_t entries = 0;
-    for (std::size_t i = 0; i < points.size() && entries <= most_entries; ++i) {
-      visit_cells(i, [&](std::size_t /*cell*/) { ++entries; });
-    }
-    is_crowded_ = entries > most_entries;
-    if (is_crowded_) return;
-    const auto cells = (most_ + Cell::Ones()).cast<std::size_t>().prod();
-    balls_ = counting_sort(points.size(), cells, visit_cells);
-  }
-
-  /// Whether the balls are too large for the grid, which is then empty.
-  bool is_crowded() const { return is_crowded_; }
-
-  /// Calls visit(ball), possibly several times, for each ball that a box may meet.
-  template <class Visit>
-  void visit(const Vector3& low, const Vector3& high, const Visit& visit) const {
-    const Cell first = cell_at(low).max(0);
-    const Cell last = cell_at(high).min(most_);
-    if ((first > last).any()) return;
-    for_cells(first, last, [&](std::size_t cell) {
-      for (auto ball = balls_.begin(cell); ball != balls_.end(cell); ++ball) visit(*ball);
-    });
-  }
-
- private:
-  using Cell = Eigen::Array3i;
-
-  /// Bounded, so that a far point has a cell too.
-  Cell cell_at(const Vector3& point) const {
-    const Eigen::Array3d at = ((point - low_) * cells_a_length_).array();
-    return at.max(-1.0).min(1e6).floor().cast<int>();
-  }
-
-  template <class Visit>
-  void for_cells(const Cell& first, const Cell& last, const Visit& visit) const {
-    for (int x = first[0]; x <= last[0]; ++x) {
-      for (int y = first[1]; y <= last[1]; ++y) {
-        for (int z = first[2]; z <= last[2]; ++z) {
-          visit(index((x * (most_[1] + 1) + y) * (most_[2] + 1) + z));
-        }
-      }
-    }
-  }
-
-  Vector3 low_;
-  double cells_a_length_ = 0.0;
-  Cell most_ = Cell::Zero();
-  bool is_crowded_ = false;
-  Groups balls_;
-};
-
 /// Squares of distances, of which the smallest of several parts are wanted.
 struct SmallestSquares {
   std::vector<double> values;
@@ -176,27 +104,30 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
     few.triangles.push_back({corner, corner + 1, corner + 2});
   }
   if (!has_area(few)) return {};
-  const MeshDistance boxes(few, execution, distance_stage);
+  const MeshDistance tree(few, execution, distance_stage);
   SmallestSquares bounds;
-  std::size_t near = 0;
-  for (const Vector3& point : points) {
-    bounds.values.push_back(boxes.squared_distance(point, near, 0.0));
+  std::vector<BoxGrid::Box> balls;
+  for (const double radius : tree.distances(points, execution)) {
+    const Vector3& centre = points[balls.size()];
+    balls.emplace_back(centre.array() - radius, centre.array() + radius);
+    bounds.values.push_back(radius * radius);
   }
-  const BallGrid grid(points, bounds.values);
+  constexpr int cells_a_side = 64;  // half or twice as many take as long
+  const BoxGrid grid(balls, cells_a_side);
   if (grid.is_crowded()) return {};
-  constexpr std::size_t faces_a_part = 1 << 18;
+  // Each part has all squares, so there are few parts.
+  const std::size_t faces_a_part = std::max<std::size_t>(1 << 14, mesh.triangles.size() / 16 + 1);
   bounds = execution.parallel_sum(
       mesh.triangles.size(), faces_a_part, bounds, [&](std::size_t begin, std::size_t end) {
         SmallestSquares part = bounds;
         for (std::size_t f = begin; f < end; ++f) {
           const auto& [a, b, c] = mesh.triangles[f];
           const std::array<Vector3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
-          const Vector3 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-          const Vector3 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-          grid.visit(low, high, [&](std::int32_t ball) {
+          const BoxGrid::Box box = box_of(corners);
+          grid.visit(box, [&](std::int32_t ball) {
             const Vector3& point = points[ball];
             double& smallest = part.values[ball];
-            if ((low - point).cwiseMax(point - high).cwiseMax(0.0).squaredNorm() >= smallest ||
+            if (box.squaredExteriorDistance(point) >= smallest ||
                 !(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) {
               return;
             }

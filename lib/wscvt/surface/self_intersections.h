@@ -24,7 +24,7 @@ std::vector<TrianglePair> self_intersections(const IndexedMesh& mesh,
                                              const Execution& execution = Execution(1));
 
 /// Returns those of the pairs that have a triangle in `asked`, numbers of triangles: takes time for
-/// these triangles and a box of each other one. Throws Error(Cancelled).
+/// these triangles and a glance at each other one. Throws Error(Cancelled).
 std::vector<TrianglePair> self_intersections_of(const std::vector<std::int32_t>& asked,
                                                 const IndexedMesh& mesh,
                                                 const Execution& execution = Execution(1));
@@ -46,8 +46,7 @@ struct CrossingPairs {
 };
 
 /// Counts the pairs of triangles that intersect outside their shared corners and edges. A mesh of
-/// up to 500 triangles is looked at as a whole, one of more than 2,000,000 not at all. Throws
-/// Error(Cancelled).
+/// up to 500 triangles is looked at as a whole. Throws Error(Cancelled).
 CrossingPairs crossing_pairs(const IndexedMesh& mesh, const Execution& execution = Execution(1));
 
 /// Returns a sentence on the pairs of `whose` mesh, such as "the scan"; empty without pairs.
