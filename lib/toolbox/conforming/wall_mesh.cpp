@@ -78,6 +78,12 @@ bool WallMesh::is_line(const EdgeTriangles& at_edge) const {
   return at_edge.size() != 2 || !same_wall(triangles[at_edge[0]], triangles[at_edge[1]]);
 }
 
+bool WallMesh::is_alone(std::size_t t) const {
+  const auto& [a, b, c] = triangles[t].corners;
+  return is_alive(t) && triangles[t].outer >= 0 && is_line(triangles_at(a, b)) &&
+         is_line(triangles_at(b, c)) && is_line(triangles_at(c, a));
+}
+
 WallVertices WallMesh::line_neighbours(std::int32_t v) const {
   WallVertices seen;
   WallVertices found;

@@ -44,6 +44,9 @@ class WallMesh : public WallComplex {  // dead triangles have the corner -1
   /// Whether the triangles of an edge make it part of a line.
   bool is_line(const EdgeTriangles& at_edge) const;
 
+  /// Whether a triangle is a whole wall between two grains.
+  bool is_alone(std::size_t t) const;
+
   /// Joins `gone` with `kept` at a position, if nothing but the triangles at their edge vanishes,
   /// no triangle turns over or becomes a sliver (its evenness gets worse and is below `evenness`; 0
   /// flat, 1 even edges), and no edge becomes too long. Returns whether it did.

@@ -18,7 +18,8 @@ constexpr double shortest_share = 4.0 / 5.0;
 // Of the wanted length: shorter edges, and walls that are narrower, leave flat tetrahedra.
 constexpr double narrow_share = 0.4;
 
-// Of the wanted length: walls of one face of voxels stay at the usual edge.
+// Of the wanted length: lines about walls of a few faces of voxels. With `narrow_share`, triangles
+// intersect in gaps of a voxel.
 constexpr double tiny_share = 0.25;
 
 constexpr double flat_evenness = 0.1;  ///< angles of about 2 or 4 degrees
@@ -110,6 +111,34 @@ bool WallRemesher::join(std::int32_t a, std::int32_t b, double longest, double e
                                ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
                                : mesh_.points[index(b)];
   return mesh_.collapse(a, b, position, longest, evenness);
+}
+
+void WallRemesher::widen_small() {
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    if (!mesh_.is_alone(t)) continue;
+    const WallTriangle& wall = mesh_.triangles[t];
+    std::array<Vector3, 3> x;
+    double shortest = unlimited;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = mesh_.points[index(wall.corners[k])];
+      const Vector3& next = mesh_.points[index(wall.corners[following(k)])];
+      shortest = std::min(shortest, (next - x[k]).norm());
+    }
+    const double least = narrow_share * edge_of(wall) / factor_;
+    const Vector3 normal = doubled_area_normal(x[0], x[1], x[2]).normalized();
+    if (shortest >= least || normal.isZero()) continue;
+    const Vector3 middle = (x[0] + x[1] + x[2]) / 3.0;
+    constexpr double sine = 0.8660254037844386;  // of 120 degrees
+    const auto turned = [&](const Vector3& arm, double way) -> Vector3 {
+      return -0.5 * arm + way * sine * normal.cross(arm);
+    };
+    // The mean of the arms, turned onto the first one: that of the nearest even triangle.
+    const Vector3 mean = x[0] - middle + turned(x[1] - middle, -1.0) + turned(x[2] - middle, 1.0);
+    const Vector3 arm = least / (2.0 * sine) * mean.normalized();
+    const std::array<Vector3, 3> even = {middle + arm, middle + turned(arm, 1.0),
+                                         middle + turned(arm, -1.0)};
+    for (std::size_t k = 0; k < 3; ++k) mesh_.points[index(wall.corners[k])] = even[k];
+  }
 }
 
 void WallRemesher::split_long() {
@@ -314,6 +343,7 @@ void WallRemesher::run(const std::vector<double>& least, int nodes, const Execut
     flip_all(false);
     relax(2, execution);
   }
+  widen_small();
   mesh_.compact();
 }
 

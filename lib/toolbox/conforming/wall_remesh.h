@@ -38,6 +38,9 @@ class WallRemesher {
   void collapse_short(double most);
   /// Takes away what is left of walls and lines of few voxels, and the walls with it.
   void collapse_narrow();
+  /// Makes walls of one triangle even and not too small for tetrahedra. They are the contacts of a
+  /// few faces of voxels.
+  void widen_small();
   /// Joins the ends of an edge, see WallMesh::collapse. Returns whether it did.
   bool join(std::int32_t a, std::int32_t b, double longest, double evenness);
   void split_long();

@@ -110,6 +110,11 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   }
   const std::vector<Vector3> parted = mesh.points;
   std::vector<double> shares(parted.size(), 1.0);
+  // Both sides of a wall of one triangle are narrow there, and would stretch it to a false contact.
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!mesh.is_alone(t)) continue;
+    for (const std::int32_t v : mesh.triangles[t].corners) shares[index(v)] = 0.1;
+  }
   FinishedWalls result;
   for (int k = 0; k < most_restorations; ++k) {
     execution.report(0.2 + 0.15 * k, "Restoring the volumes");
