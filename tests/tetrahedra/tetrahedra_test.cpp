@@ -180,6 +180,10 @@ TEST_F(Tetrahedra, LineNamesTheBodyWithTheSmallestAngle) {
     EXPECT_EQ(flattest, is_first ? 0 : 1);
     const std::string name = flattest == 0 ? "(grain 3)" : "(grain 7)";
     EXPECT_NE(tetrahedra_line(mesh).find(name), std::string::npos) << tetrahedra_line(mesh);
+    const int below = static_cast<int>(dihedral_angles(mesh, 0)[0] < 12.0) +
+                      static_cast<int>(dihedral_angles(mesh, 1)[0] < 12.0);
+    EXPECT_NE(tetrahedra_line(mesh).find("below 12 in " + std::to_string(below) + " of 2 grains"),
+              std::string::npos);
   }
 }
 

@@ -167,7 +167,7 @@ TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std:
       if (error.code() == ErrorCode::Cancelled) throw;
       throw Error(error.code(), "The " + kind + " " + names[b] + ": " + error.what());
     }
-    if (filled[b].smallest_dihedral < filled[all.flattest].smallest_dihedral) all.flattest = b;
+    all.body_dihedrals.push_back(filled[b].smallest_dihedral);
     for (const Vector3& p : bodies[b].points) numbers[b].push_back(surface_points.of(p));
     for (const Triangle& t : bodies[b].triangles) {
       const Triangle corners = {numbers[b][t[0]], numbers[b][t[1]], numbers[b][t[2]]};
@@ -199,11 +199,21 @@ TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std:
 }
 
 std::string tetrahedra_line(const TetrahedralMesh& mesh) {
+  std::string flattest;
+  std::string below;
+  if (!mesh.names.empty()) {
+    const std::vector<double>& angles = mesh.body_dihedrals;
+    const auto smallest = std::min_element(angles.begin(), angles.end()) - angles.begin();
+    flattest = " (" + mesh.kind + " " + mesh.names[static_cast<std::size_t>(smallest)] + ")";
+    const auto count = std::count_if(angles.begin(), angles.end(),
+                                     [](double angle) { return angle < least_dihedral; });
+    below = ", below " + format_number(least_dihedral, 3) + " in " + std::to_string(count) +
+            " of " + std::to_string(angles.size()) + " " + mesh.kind + "s";
+  }
   return "Tetrahedra: " + std::to_string(mesh.tetrahedra.size()) + " of " +
          std::to_string(mesh.surface.points.size()) + " points, dihedral angles " +
-         format_number(mesh.smallest_dihedral, 3) +
-         (mesh.names.empty() ? "" : " (" + mesh.kind + " " + mesh.names[mesh.flattest] + ")") +
-         " to " + format_number(mesh.largest_dihedral, 4) + " degrees, mean edge " +
+         format_number(mesh.smallest_dihedral, 3) + flattest + " to " +
+         format_number(mesh.largest_dihedral, 4) + " degrees" + below + ", mean edge " +
          format_number(mesh.mean_edge, 3);
 }
 

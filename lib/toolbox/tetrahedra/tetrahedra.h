@@ -29,7 +29,7 @@ struct TetrahedralMesh {
   std::vector<std::int32_t> bodies;  ///< of several: of each tetrahedron, ascending
   /// Of several bodies: those inside and outside of each triangle; -1 outside: none.
   std::vector<std::array<std::int32_t, 2>> sides;
-  std::size_t flattest = 0;  ///< the body with the smallest dihedral angle
+  std::vector<double> body_dihedrals;  ///< of several: the smallest angle in each, degrees
 };
 
 inline constexpr NumberOption<double> tetrahedra_edge_option = {
@@ -63,7 +63,11 @@ TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std:
                               const std::vector<std::string>& names, double edge,
                               const Execution& execution = Execution());
 
-/// Returns a line for a log: numbers and angles.
+/// With smaller dihedral angles, tetrahedra make equations hard to solve.
+inline constexpr double least_dihedral = 12.0;  // degrees
+
+/// Returns a line for a log: numbers and angles, and of several bodies the one with the smallest
+/// angle and how many have one below `least_dihedral`.
 std::string tetrahedra_line(const TetrahedralMesh& mesh);
 
 }  // namespace wscvt

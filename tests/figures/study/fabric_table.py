@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """fabric_table.py WSCVT FOLDER: makes packings of known contacts in FOLDER, measures them by WSCVT, and prints
-the table of fabric.md. 70 balls that overlap, whose contacts are discs, and 70 dented grains (balls with bumps
+the table of fabric.md. The labels stay in FOLDER, such as dented_30.nrrd. 70 balls that overlap, whose contacts are discs, and 70 dented grains (balls with bumps
 and dents of up to 30 %), 15, 30 and 60 voxels across. Exact: each voxel has the label of the grain at its
 middle. Scan: grey values of the same grains, blurred, with noise of 5 %, labelled by wscvt segment. Of the
 contacts count those with a radius above .12 of the grains'. SPAM's way: the normal is the least axis of the
@@ -174,7 +174,8 @@ def degrees(a, b):
 
 def row(program, folder, grains, truth, across, blur):
     h = 2 * grains.r.mean() / across
-    path = os.path.join(folder, "labels.nrrd")
+    kind = "" if blur is None else "_blurred_%s" % blur
+    path = os.path.join(folder, "%s_%d%s.nrrd" % (grains.name, across, kind))
     call = [program, "describe", path, "-o", os.path.join(folder, "out"), "-q"]
     if blur is None:
         labels, _ = labels_of(grains, h, numpy.random.default_rng(across).uniform(-0.5, 0.5, 3), 1)
