@@ -52,6 +52,26 @@ TEST(DescriptorReport, JsonHoldsTheNumbersToTheLastBit) {
   EXPECT_EQ(compared.at("distances").at("largest_distance").get<double>(), pair.distances->largest);
 }
 
+TEST(DescriptorReport, ResolutionIsInTheDocument) {
+  GrainMeasures measures = one();
+  Resolution resolution;
+  resolution.voxel_size = 0.25;
+  resolution.voxels_across = 8.5;
+  ResolvedValue row;
+  row.key = "area";
+  row.corrected = 12.0;
+  row.low = 11.0;
+  row.high = 14.0;
+  resolution.rows = {row};
+  measures.resolution = resolution;
+  const auto report = nlohmann::json::parse(descriptor_json(measures)).at("resolution");
+  EXPECT_EQ(report.at("voxel_size"), 0.25);
+  EXPECT_EQ(report.at("voxels_across"), 8.5);
+  EXPECT_EQ(report.at("area").at("corrected"), 12.0);
+  EXPECT_EQ(report.at("area").at("low"), 11.0);
+  EXPECT_EQ(report.at("area").at("high"), 14.0);
+}
+
 TEST(DescriptorReport, HoldsTheMassProperties) {
   const auto alone = nlohmann::json::parse(descriptor_json(one())).at("mass");
   const GrainMeasures pair = two();

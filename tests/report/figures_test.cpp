@@ -9,6 +9,7 @@
 #include <locale>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -59,6 +60,12 @@ TextPlace place_of(const std::string& svg, const std::string& text) {
   if (end == std::string::npos) return {};
   const std::string element = svg.substr(svg.rfind("<text", end));
   return {numbers_after(element, " x=\"", "").front(), numbers_after(element, " y=\"", "").front()};
+}
+
+Vector3 mean_of(const std::vector<Vector3>& points) {
+  Vector3 sum = Vector3::Zero();
+  for (const Vector3& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
 }
 
 TEST(Figures, TicksAreRoundAndWithin) {
@@ -140,6 +147,10 @@ TEST(Figures, BarsAreSharesOfWhatEachCounted) {
   EXPECT_NEAR(place_of(svg, "0").x, path[0] + width, 2e-3);
   EXPECT_NEAR(place_of(svg, "2").x, path[0] + 3 * width, 2e-3);
   EXPECT_NEAR(place_of(svg, "20").y - place_of(svg, "60").y, height * 8 * 0.4, 5e-3);
+  // The bars fill the frame from side to side.
+  const std::vector<double> sides = attributes(svg, "line", "x2");
+  EXPECT_NEAR(path[0], *std::min_element(sides.begin(), sides.end()), 2e-3);
+  EXPECT_NEAR(path[path.size() - 2], *std::max_element(sides.begin(), sides.end()), 2e-3);
   const double highest = *std::min_element(path.begin() + 2, path.end());
   EXPECT_GT(highest, 34.0);  // below the names, and the frame is used
   EXPECT_LT(highest, 34.0 + 0.1 * (bottom - highest));
@@ -165,6 +176,15 @@ TEST(Figures, CurvesAreStraightWhereTheyArePowers) {
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_EQ(path[2 * k], x[k]);
     EXPECT_EQ(path[2 * k + 1], y[k]);
+  }
+  // Over two decades there is a number at 1, 2 and 5 times each power of ten.
+  const std::string two = logarithmic_figure("N", "error", {{10, 4.0}, {1000, 3.0}}, 0.0);
+  const double tenth = 0.5 * (place_of(two, "1000").x - place_of(two, "10").x);
+  for (const double value : {20.0, 50.0, 100.0, 200.0, 500.0}) {
+    const std::string text = std::to_string(static_cast<int>(value));
+    EXPECT_NEAR(place_of(two, text).x, place_of(two, "10").x + tenth * std::log10(value / 10.0),
+                5e-3)
+        << value;
   }
   // A target that no point comes near to is in the drawing as well: 300 high, its numbers below.
   for (const double level : {1e-5, 1e4}) {
@@ -234,6 +254,47 @@ TEST(Figures, DistancesArePositiveOutsideAndAsLargeAsTheyAre) {
   }
   spiked.points[100] *= 1.4;
   check(spiked, ball, 1.0);
+}
+
+TEST(Figures, ScaleOfDistancesLeavesOutTwoSamplesOfAHundred) {
+  const IndexedMesh box = test::box(1.0, 1.0, 1.0);
+  const Vector3 middle = mean_of(box.points);
+  for (const double side : {1.0, -1.0}) {
+    // From 0.004 to 0.4 off the middle of a face, in another order.
+    std::vector<Vector3> samples;
+    for (int k = 0; k < 100; ++k) {
+      const double distance = 0.004 * (k * 37 % 100 + 1);
+      samples.push_back(middle + Vector3(0.0, 0.0, 0.5 + side * distance));
+    }
+    const PageFigures figures =
+        page_figures(ShownMesh{box, "scan"}, {box, "remesh"}, Execution(1), samples);
+    EXPECT_FALSE(std::isnan(place_of(figures.pictures.back().content, "0.396").x));
+    EXPECT_FALSE(std::isnan(place_of(figures.pictures.back().content, "-0.396").x));
+  }
+}
+
+TEST(Figures, HistogramsOfTrianglesAreThoseOfTheirTitles) {
+  // Edges of a sphere of facets are near their mean, a third of the axis from 0 to 3. Ratios are
+  // near 1, where the axis from 1 to 3 begins, and angles near 60 degrees of 180.
+  const std::vector<Figure> figures =
+      page_figures({}, {test::sphere(3), "ball"}, Execution(1)).distributions;
+  ASSERT_EQ(figures.size(), 3U);
+  const std::vector<std::pair<std::string, double>> expected = {
+      {">edge length / mean edge length<", 1.0 / 3.0},
+      {">longest / shortest edge of a triangle<", 0.05},
+      {">angle, degrees<", 1.0 / 3.0}};
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    EXPECT_NE(figures[k].content.find(expected[k].first), std::string::npos);
+    const std::vector<double> path = numbers_after(figures[k].content, " d=\"M", "LMZ");
+    double sum = 0.0;
+    double heights = 0.0;
+    for (std::size_t at = 2; at + 3 < path.size(); at += 4) {
+      const double height = path[1] - path[at + 1];
+      sum += height * (0.5 * (path[at] + path[at + 2]) - path[0]);
+      heights += height;
+    }
+    EXPECT_NEAR(sum / heights / (path[path.size() - 2] - path[0]), expected[k].second, 0.05);
+  }
 }
 
 TEST(Figures, PicturesShowBothMeshesWhole) {

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/page_tables.h"
@@ -16,6 +18,7 @@
 #include "wscvt/remesh.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/open_table.h"
 #include "wscvt/report/report.h"
@@ -84,6 +87,22 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   const std::string with_curve = report_html(searched, {}, Execution(1));
   EXPECT_EQ(count_of(with_curve, "<svg"), 6U);
   EXPECT_EQ(count_of(with_curve, "<circle"), searched.search->trials.size());
+  std::vector<CurvePoint> points_of_curve;
+  for (const NodeCountTrial& trial : searched.search->trials) {
+    points_of_curve.push_back({static_cast<double>(trial.node_count), trial.error});
+  }
+  EXPECT_NE(with_curve.find(logarithmic_figure("number of nodes", "volume error, %",
+                                               std::move(points_of_curve), 3.0)),
+            std::string::npos);
+
+  for (const bool asked : {false, true}) {
+    options.measures.distances = asked;
+    RemeshResult result = searched;
+    result.options = options;
+    EXPECT_NE(report_html(result, {}, Execution(1))
+                  .find(asked ? "<td>--distances=true</td>" : "<td>--distances=false</td>"),
+              std::string::npos);
+  }
 }
 
 TEST(Page, OfDescriptorsNamesTheGrains) {
