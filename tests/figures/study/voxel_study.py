@@ -5,9 +5,13 @@
 nodes WSCVT            how many nodes the voxels resolve
 coverage WSCVT DAT...  how many intervals contain the true value: of 6 bodies of its own and of real particles (spherical
                        harmonics), in eight poses from exact labels, and in four from grey values with blur and noise
+again WSCVT DAT...     how much of the error of scans the smoothing of `segment` tells, done once more on the blurred image
+                       of the labels; every second body, of 12 of its own and of real particles, gives the gains, the
+                       others judge
 """
 
 import csv
+import gzip
 import json
 import math
 import os
@@ -55,10 +59,11 @@ class Particle:
 
     def __init__(self, path):
         from scipy.special import sph_harm
-        polar, around = np.meshgrid(np.radians(np.arange(0, 181)), np.radians(np.arange(0, 361)), indexing="ij")
-        self.table = np.zeros(polar.shape)
+        polar, around = np.radians(np.arange(181)), np.radians(np.arange(361))
+        self.table = np.zeros((181, 361))
         for n, m, real, imaginary in np.loadtxt(path):
-            self.table += (complex(real, imaginary) * sph_harm(int(m), int(n), around, polar)).real
+            along = complex(real, imaginary) * sph_harm(int(m), int(n), 0.0, polar)
+            self.table += np.outer(along, np.exp(1j * m * around)).real
         self.axes = np.ones(3)
 
     def radius(self, directions):
@@ -239,9 +244,87 @@ def print_coverage(found):
         print(f"{kind} | {key} | {across} | {len(rows)} | " + " | ".join(cells))
 
 
+def marked(mask, count):
+    """Returns a mask of so many bodies, as in side_by_side, with their numbers from 1."""
+    return np.where(mask, np.repeat(np.arange(1, count + 1), len(mask) // count)[:, None, None], 0)
+
+
+def by_segment(program, grey):
+    save("scan.npy", grey, np.float32)
+    call(program, "segment", "scan.npy", "labels.nrrd", "--separate", 0, "-q")
+    head, _, body = pathlib.Path("labels.nrrd").read_bytes().partition(b"\n\n")
+    words = dict(line.split(": ", 1) for line in head.decode().splitlines() if ": " in line)
+    kind = {"uint8": np.uint8, "uint16": "<u2", "uint32": "<u4"}[words["type"]]
+    return np.frombuffer(gzip.decompress(body), kind).reshape(grey.shape[::-1]).transpose(2, 1, 0) > 0
+
+
+def level_mask(grey, blur, medians):
+    """Returns what level_mask.cpp makes of grey values from 0 to 1, smoothed by so many medians, with a known blur."""
+    from scipy.ndimage import binary_dilation, binary_erosion, laplace, median_filter, uniform_filter
+    for _ in range(medians):
+        grey = median_filter(grey, 3)
+    mean = uniform_filter(np.clip(grey, 0, 1), 3)
+    mask = mean >= 0.5
+    beside = binary_dilation(mask) & ~binary_erosion(mask)
+    return np.where(beside, mean - 1.3 * (blur ** 2 + (1 + medians) * 2 / 3) * laplace(mean) >= 0.5, mask)
+
+
+def sizes_of(points, faces):
+    """Returns area, sphericity and convexity."""
+    from scipy.spatial import ConvexHull
+    corners = points[faces]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+    inside = volume(points, faces)
+    return np.array([area, (36 * np.pi * inside ** 2) ** (1 / 3) / area, inside / ConvexHull(points).volume])
+
+
+def surfaces(program, labels, count):
+    """Returns sizes_of of the surfaces of labels 1 to count; NaN without one."""
+    save("labels.npy", labels)
+    call(program, "extract", "labels.npy", "out", "-q", "--format", "obj", "--smallest", 30)
+    sizes = np.full((count, 3), np.nan)
+    for path in pathlib.Path("out").glob("*.obj"):
+        lines = [line.split() for line in path.read_text(encoding="ascii").splitlines()]
+        points = np.array([line[1:4] for line in lines if line[:1] == ["v"]], float)
+        faces = np.array([[cell.split("/")[0] for cell in line[1:4]] for line in lines if line[:1] == ["f"]], int) - 1
+        sizes[int(path.stem) - 1] = sizes_of(points, faces)
+    return sizes
+
+
+def again(program, *files):
+    from scipy.ndimage import gaussian_filter
+    sphere, faces = cube_sphere(60)
+    bodies = [Body(seed) for seed in range(301, 313)] + [Particle(file) for file in files]
+    judges = np.arange(len(bodies)) % 2 == 1
+    print("labels | voxels across | descriptor | raw error %, rms | corrected error %, rms | gain | covered %")
+    blur = 0.7
+    for across in (15, 20, 30, 40):
+        scale = [across / (6 * volume(body.mesh(SPHERE)) / np.pi) ** (1 / 3) for body in bodies]  # as in placed
+        true = np.array([sizes_of(one * body.mesh(sphere), faces) for one, body in zip(scale, bodies)])
+        scans = [grey_of(*placed(body, across, 1000 * number + across)[::2]) for number, body in enumerate(bodies)]
+        clean = side_by_side(scans)
+        for noise in (0.1, 0.2):
+            grey = clean + np.random.default_rng(across).normal(0, noise, clean.shape)
+            for medians, name_of in ((1, "segment"), (0, "without a median")):
+                mask = by_segment(program, grey) if medians else level_mask(grey, blur, 0)
+                seen = surfaces(program, marked(mask, len(bodies)), len(bodies))
+                mask = level_mask(gaussian_filter(mask.astype(float), blur), blur, medians)
+                second = surfaces(program, marked(mask, len(bodies)), len(bodies))
+                for k, name in enumerate(("area", "sphericity", "convexity")):
+                    error = true[:, k] / seen[:, k] - 1
+                    terms = np.array([np.ones(len(bodies)), 1 - second[:, k] / seen[:, k]]).T
+                    gives = ~judges & np.isfinite(error + terms[:, 1])
+                    judge = judges & np.isfinite(error + terms[:, 1])
+                    found = np.linalg.lstsq(terms[gives], error[gives], rcond=None)[0]
+                    left = error - terms @ found
+                    covered = np.abs(left[judge]) <= 2 * rms(left[gives])
+                    print(f"{name_of}, noise {noise} | {across} | {name} | {100 * rms(error[judge]):.2f} | "
+                          f"{100 * rms(left[judge]):.2f} | {found[1]:.2f} | {100 * covered.mean():.0f}", flush=True)
+
+
 if __name__ == "__main__":
     wscvt = pathlib.Path(sys.argv[2]).resolve()
-    command = {"nodes": nodes, "coverage": coverage}[sys.argv[1]]
+    command = {"nodes": nodes, "coverage": coverage, "again": again}[sys.argv[1]]
     given = [pathlib.Path(name).resolve() for name in sys.argv[3:]]
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
