@@ -125,20 +125,22 @@ if (figure eq 'contacts') {
   plot for [name in samplings] 'contacts.csv' using 3:(pick(5, name)) with linespoints title name
 }
 
-# Energies of 54 grains in Yade against time, means over the starts, for the choices of nodes.
+# Energies in Yade against time, for the choices of nodes: means over the starts with their intervals of 95 %.
 if (figure eq 'packing') {
   set terminal svg size 1200,420 font 'sans,12' background 'white'
   set output 'packing.svg'
   choices = system("tail -n +2 energies.csv | cut -d, -f1 | uniq")
   pick(k, name) = strcol(1) eq name ? column(k) : NaN
+  end(k, sign, name) = pick(k, name) + sign * column(k + 3)
   set xlabel 'time, s'
+  set xtics 0.2
   set key top right samplen 2 font ',10' noenhanced
+  set style fill transparent solid 0.15 noborder
   set multiplot layout 1,3
-  set title 'kinetic energy, J'
-  plot for [name in choices] 'energies.csv' using 2:(pick(3, name)) with lines title name
-  unset key
-  set title 'potential energy, J'
-  plot for [name in choices] 'energies.csv' using 2:(pick(4, name)) with lines
-  set title 'elastic energy, J'
-  plot for [name in choices] 'energies.csv' using 2:(pick(5, name)) with lines
+  do for [k=3:5] {
+    set title word('kinetic potential elastic', k - 2).' energy, J'
+    plot for [i=1:words(choices)] 'energies.csv' using 2:(end(k, -1, word(choices, i))):(end(k, 1, word(choices, i))) with filledcurves lc i notitle, \
+      for [i=1:words(choices)] '' using 2:(pick(k, word(choices, i))) with lines lc i title word(choices, i)
+    unset key
+  }
 }

@@ -6,7 +6,7 @@ grains as scanned, below the height that 70 % of their centres are under. The tr
 deepest vertex of a scan in the other grain. The others' solid fractions are compared with REFERENCE, by
 default 7,228 nodes on the scan, start by start. Last it says how much of the scatter of single packings is
 noise: what remains if each packing is compared with the means of its nodes and of its start. Writes FOLDER/energies.csv, the means over the seeds
-against time."""
+against time, with the halves of their intervals."""
 import glob
 import json
 import os
@@ -100,11 +100,16 @@ def measure(packing, distances, vertices):
             solid_fraction(distances, reach, places, matrices, box)]
 
 
-def mean_and_error(values):
-    values = numpy.array(values)
+def half_interval(values):
+    """Over the first axis."""
     count = len(values)
-    error = (STUDENT.get(count, 1.96) * values.std(ddof=1) / numpy.sqrt(count) if count > 1 else numpy.nan)
-    return "%.4g +- %.2g" % (values.mean(), error)
+    if count < 2:
+        return numpy.full(numpy.shape(values)[1:], numpy.nan)
+    return STUDENT.get(count, 1.96) * numpy.std(values, axis=0, ddof=1) / numpy.sqrt(count)
+
+
+def mean_and_error(values):
+    return "%.4g +- %.2g" % (numpy.mean(values), half_interval(values))
 
 
 def noise(values):
@@ -138,10 +143,11 @@ def main():
     vertices = numpy.loadtxt(os.path.join(folder, "vertices.csv"), delimiter=",", skiprows=1,
                              usecols=(0, 1, 2))
     with open(os.path.join(folder, "energies.csv"), "w") as file:
-        file.write("nodes,time,kinetic,potential,elastic\n")
+        file.write("nodes,time,kinetic,potential,elastic,kinetic_95,potential_95,elastic_95\n")
         for name, seeds in sets.items():
-            for row in numpy.mean([energies(path) for path in seeds.values()], axis=0):
-                file.write(",".join([name] + ["%.6g" % value for value in row[:4]]) + "\n")
+            series = numpy.array([energies(path)[:, :4] for path in seeds.values()])
+            for row in numpy.hstack([series.mean(axis=0), half_interval(series)[:, 1:]]):
+                file.write(",".join([name] + ["%.6g" % value for value in row]) + "\n")
     results = {name: {seed: measure(path, distances, vertices) for seed, path in seeds.items()}
                for name, seeds in sets.items()}
     print("| nodes | seeds | ms a step | kinetic, J | potential, J | elastic, J | mean height, R | "
