@@ -20,6 +20,7 @@
 #include "toolbox/conforming/conforming_grains.h"
 #include "toolbox/exchange/fragment_files.h"
 #include "toolbox/exchange/part_files.h"
+#include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/fragment/fragments.h"
 #include "toolbox/job/job_folder.h"
 #include "toolbox/sample/given_sizes.h"
@@ -177,11 +178,15 @@ int run(const FragmentArguments& arguments) {
   });
   const OlderFiles older(arguments.folder, {"fragments.csv"});
   const MadeFolder made(arguments.folder);
+  std::vector<Rounding> roundings(files.size());
   for (std::size_t k = 0; k < files.size(); ++k) {
     work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {
-      write_fragment(path, fragments.list[k].mesh, fragments.list[k].mass, arguments.density);
+      roundings[k] =
+          write_fragment(path, fragments.list[k].mesh, fragments.list[k].mass, arguments.density);
     });
   }
+  const std::vector<std::string> rounded = rounding_lines(roundings);
+  lines.insert(lines.end(), rounded.begin(), rounded.end());
   work.write((folder / "fragments.csv").string(), [&](const std::string& path, const Execution&) {
     write_file(path, fragments_csv(fragments, files));
   });

@@ -14,6 +14,7 @@
 #include "program/call/exit_code.h"
 #include "program/commands/commands.h"
 #include "program/terminal/work.h"
+#include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/exchange/tetrahedra_files.h"
 #include "toolbox/map/scan_harmonics.h"
 #include "wscvt/base/text.h"
@@ -141,9 +142,10 @@ int run(const RemeshArguments& arguments) {
                 : MeshAttributes();
     write_mesh(in_frame(result.mesh, frame), attributes, path);
   });
+  std::vector<Rounding> roundings;
   for (const std::string& nodes : simulation.nodes) {
     work.write(nodes, [&](const std::string& path, const Execution&) {
-      write_nodes(path, result, simulation.options);
+      roundings.push_back(write_nodes(path, result, simulation.options));
     });
   }
   for (const std::string& grid : simulation.grids) {
@@ -152,14 +154,16 @@ int run(const RemeshArguments& arguments) {
     });
   }
   std::vector<ReportAddition> additions;
+  std::vector<std::string> lines = rounding_lines(roundings);
   const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work, additions);
+  lines.insert(lines.end(), filled.begin(), filled.end());
   work.write_reports(common.reports, result, origin, additions);
   if (!arguments.coefficients.empty()) {
     work.write(arguments.coefficients, [&](const std::string& path, const Execution&) {
       write_coefficients(path, result);
     });
   }
-  work.print_log(result, common.verbose, filled);
+  work.print_log(result, common.verbose, lines);
   return Done;
 }
 

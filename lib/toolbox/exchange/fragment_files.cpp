@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "toolbox/convex/convex_body.h"
-#include "toolbox/exchange/node_table.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "toolbox/sample/csv_reader.h"
@@ -28,18 +27,24 @@ void check_fragment_format(const std::string& format) {
          ", or urdf, xml (MuJoCo) or shp (Rockable), without the point.");
 }
 
-void write_fragment(const std::string& path, const IndexedMesh& mesh, const MassProperties& mass,
-                    double density) {
+Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
+                        const MassProperties& mass, double density) {
   const std::string ending = ending_of(path);
   if (ending == ".urdf" || ending == ".xml") {
-    return write_parts(path, {convex_body(mesh.points).hull}, mass, density);
+    write_parts(path, {convex_body(mesh.points).hull}, mass, density);
+    return {};
   }
-  if (ending != ".shp") return write_mesh(mesh, path);
+  if (ending != ".shp") {
+    write_mesh(mesh, path);
+    return {};
+  }
   SimulationFrame frame;
   frame.origin = mass.centroid;
   frame.axes = mass.principal_axes;
-  write_file(path, rockable_shape(std::filesystem::path(path).stem().string(),
-                                  node_table(in_frame(mesh, frame)), in_frame(mass, frame)));
+  const RockableShape shape = rockable_shape(std::filesystem::path(path).stem().string(),
+                                             in_frame(mesh, frame), in_frame(mass, frame));
+  write_file(path, shape.text);
+  return shape.rounding;
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/fragment/fragments.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/measures/descriptors.h"
@@ -20,9 +21,9 @@ void check_fragment_format(const std::string& format);
 ///   and inertia of `mass` times `density` (see write_parts);
 /// - .shp: a shape of Rockable, in the principal frame of `mass` about its centroid (see
 ///   rockable_shape).
-/// Throws Error as check_fragment_format and write_file do.
-void write_fragment(const std::string& path, const IndexedMesh& mesh, const MassProperties& mass,
-                    double density);
+/// Returns the rounding of a .shp. Throws Error as check_fragment_format and write_file do.
+Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
+                        const MassProperties& mass, double density);
 
 /// Returns CSV, a row per fragment: fragment (from 1), file, volume, centroid (x, y, z), principal
 /// frame (qw, qx, qy, qz, see MassProperties), surface_area, wall_area, hull_excess_percent,

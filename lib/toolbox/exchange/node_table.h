@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
 
@@ -29,15 +28,5 @@ std::string nodes_csv(const NodeTable& nodes);
 /// "area". It is text; numbers read back to the same bits. Not written by VTK, whose Debian package
 /// brings 172 others and 519 MB for these forty lines.
 std::string nodes_vtp(const NodeTable& nodes);
-
-/// Returns a shape file (.shp) of Rockable, which exaDEM reads too: corners, edges and faces of a
-/// body rounded by a small sphere, with its box, volume and moments. The sphere's radius is a
-/// hundredth of the equivalent radius. The corners are moved inwards along their normals by this
-/// radius, so that the rounded body has the grain's size. Not tested: Rockable is not in Debian.
-///
-/// `name` is one word. Throws Error(InvalidInput) unless `mass` is given in the principal frame
-/// about the centroid, because the format has three moments and no axes.
-std::string rockable_shape(const std::string& name, const NodeTable& nodes,
-                           const MassProperties& mass);
 
 }  // namespace wscvt

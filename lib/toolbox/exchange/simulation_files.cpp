@@ -100,16 +100,21 @@ void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const Simulati
   check_grid(in_frame(std::move(scan), frame), options.grid);
 }
 
-void write_nodes(const std::string& path, const RemeshResult& result,
-                 const SimulationOptions& options) {
+Rounding write_nodes(const std::string& path, const RemeshResult& result,
+                     const SimulationOptions& options) {
   check_nodes_path(path, options);
   const SimulationFrame frame = simulation_frame(result.scan, options.frame);
-  const NodeTable nodes = node_table(in_frame(result.mesh, frame));
+  IndexedMesh mesh = in_frame(result.mesh, frame);
   const std::string ending = ending_of(path);
-  if (ending == ".csv") return write_file(path, nodes_csv(nodes));
-  if (ending == ".vtp") return write_file(path, nodes_vtp(nodes));
-  write_file(path,
-             rockable_shape(word_of(path), nodes, in_frame(mass_properties(result.scan), frame)));
+  if (ending == ".shp") {
+    const RockableShape shape =
+        rockable_shape(word_of(path), mesh, in_frame(mass_properties(result.scan), frame));
+    write_file(path, shape.text);
+    return shape.rounding;
+  }
+  const NodeTable nodes = node_table(std::move(mesh));
+  write_file(path, ending == ".csv" ? nodes_csv(nodes) : nodes_vtp(nodes));
+  return {};
 }
 
 void write_distance_grid(const std::string& path, const RemeshResult& result,

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "toolbox/exchange/rockable_shape.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/remesh/remesh_result.h"
@@ -28,9 +29,10 @@ void check_grid_of(IndexedMesh scan, const RemeshOptions& remesh, const Simulati
                    const Execution& execution);
 
 /// Writes the nodes of a remesh in the chosen frame by nodes_csv, nodes_vtp or rockable_shape, by
-/// the name's ending. Throws Error as check_nodes_path and write_file do.
-void write_nodes(const std::string& path, const RemeshResult& result,
-                 const SimulationOptions& options);
+/// the name's ending. Returns the rounding of a Rockable shape. Throws Error as check_nodes_path
+/// and write_file do.
+Rounding write_nodes(const std::string& path, const RemeshResult& result,
+                     const SimulationOptions& options);
 
 /// Writes signed distances in the chosen frame, by the name's ending: grid_npy with a description
 /// beside it (frame, origin, spacing, mass properties of the scan at unit density in this frame),
