@@ -17,7 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "toolbox/job/grain_files.h"
 #include "toolbox/report/sample_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
@@ -476,6 +478,14 @@ TEST_F(Job, OneTableHasOneUnit) {
     FAIL() << "two units in one table";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("are in um, and of"), std::string::npos);
+  }
+}
+
+TEST(Formats, OfMeshesAreEndingsWithoutAPoint) {
+  for (const char* format : {"ply", "obj", "ascii.stl", "vtu"})
+    EXPECT_NO_THROW(check_format(format));
+  for (const char* format : {"", ".", ".obj", "..obj", "obj.", "tif"}) {
+    test::expect_error(ErrorCode::InvalidInput, [&] { check_format(format); });
   }
 }
 

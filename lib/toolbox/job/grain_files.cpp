@@ -121,7 +121,9 @@ std::vector<std::string> grain_files(const std::vector<std::string>& inputs,
 }
 
 void check_format(const std::string& ending) {
-  if (is_mesh_format("mesh." + ending, MeshUse::Write)) return;
+  // With a point before it, names would have two.
+  const bool has_point = !ending.empty() && ending.front() == '.';
+  if (!has_point && is_mesh_format("mesh." + ending, MeshUse::Write)) return;
   refuse("The format of the meshes is \"" + ending + "\". Give " + mention("format") + " one of " +
          mesh_extensions(MeshUse::Write) + ", without the point.");
 }
