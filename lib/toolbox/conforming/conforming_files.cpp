@@ -27,23 +27,20 @@ GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& lab
   Label last = 0;
   std::int32_t grain = -1;
   bool is_known = false;
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      const std::vector<Label>& row = volume.next_row();
-      for (std::int32_t x = 0; x < counts[0]; ++x) {
-        const Label label = row[index(x)];
-        if (!is_known || label != last) {
-          const auto found = std::lower_bound(labels.begin(), labels.end(), label);
-          const bool is_grain = found != labels.end() && *found == label;
-          grain = is_grain ? static_cast<std::int32_t>(found - labels.begin()) : -1;
-          last = label;
-          is_known = true;
-        }
-        voxels.grain[voxels.place(x + 1, y + 1, z + 1)] = grain;
+  const auto read = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+    for (std::int32_t x = 0; x < counts[0]; ++x) {
+      const Label label = row[index(x)];
+      if (!is_known || label != last) {
+        const auto found = std::lower_bound(labels.begin(), labels.end(), label);
+        const bool is_grain = found != labels.end() && *found == label;
+        grain = is_grain ? static_cast<std::int32_t>(found - labels.begin()) : -1;
+        last = label;
+        is_known = true;
       }
+      voxels.grain[voxels.place(x + 1, y + 1, z + 1)] = grain;
     }
-  }
+  };
+  for_each_row(volume, execution, "Reading the volume", read);
   return voxels;
 }
 

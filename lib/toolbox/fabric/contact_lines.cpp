@@ -172,17 +172,13 @@ ContactLines contact_lines(LabelVolume& volume, Label background, const Executio
   const VoxelCounts& counts = volume.geometry().counts;
   LineCounter counter(counts, background);
   GreyCheck check(background);
-  volume.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Finding contacts");
-    counter.begin_slice();
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      const std::vector<Label>& row = volume.next_row();
-      counter.add_row(row, y, z);
-      check.add_row(row, y);
-    }
-    check.end_slice();
-  }
+  const auto add = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+    if (y == 0) counter.begin_slice();
+    counter.add_row(row, y, z);
+    check.add_row(row, y);
+    if (y + 1 == counts[1]) check.end_slice();
+  };
+  for_each_row(volume, execution, "Finding contacts", add);
   check.end();
   return counter.result();
 }

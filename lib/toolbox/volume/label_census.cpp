@@ -148,17 +148,14 @@ std::vector<LabelExtent> label_census(LabelVolume& volume, Label background,
   const VoxelCounts& counts = volume.geometry().counts;
   Census census(counts, background);
   GreyCheck check(background);
-  volume.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Counting labels");
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      const std::vector<Label>& row = volume.next_row();
-      census.add_row(row, y, z);
-      check.add_row(row, y);
-    }
-    census.end_slice();
-    check.end_slice();
-  }
+  for_each_row(volume, execution, "Counting labels",
+               [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+                 census.add_row(row, y, z);
+                 check.add_row(row, y);
+                 if (y + 1 < counts[1]) return;
+                 census.end_slice();
+                 check.end_slice();
+               });
   check.end();
   return census.labels();
 }

@@ -8,9 +8,11 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
@@ -119,6 +121,25 @@ class LabelVolume {
   Sentence description_;
   std::map<Label, std::string> names_;
 };
+
+/// Calls take(labels) or take(labels, y, z) for each row of a volume, from its beginning. `stage`
+/// is the name for the progress.
+template <class Take>
+void for_each_row(LabelVolume& volume, const Execution& execution, const char* stage,
+                  const Take& take) {
+  const VoxelCounts& counts = volume.geometry().counts;
+  volume.rewind();
+  for (std::int32_t z = 0; z < counts[2]; ++z) {
+    execution.report(static_cast<double>(z) / counts[2], stage);
+    for (std::int32_t y = 0; y < counts[1]; ++y) {
+      if constexpr (std::is_invocable_v<Take, const std::vector<Label>&>) {
+        take(volume.next_row());
+      } else {
+        take(volume.next_row(), y, z);
+      }
+    }
+  }
+}
 
 /// Thrown for a whole number above the largest label.
 class LargeNumber : public Error {

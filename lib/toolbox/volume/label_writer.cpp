@@ -113,18 +113,15 @@ void write_labels(const std::string& path, LabelVolume& volume, Label largest,
   const VolumeGeometry& geometry = volume.geometry();
   const int bytes = is_short ? 2 : 4;
   LabelPacker packer(is_nrrd);
-  volume.rewind();
-  for (std::int32_t z = 0; z < geometry.counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / geometry.counts[2], "Writing labels");
-    for (std::int32_t y = 0; y < geometry.counts[1]; ++y) {
-      std::string row;
-      for (const Label found : volume.next_row()) {
-        const Label label = found > largest ? 0 : found;
-        for (int k = 0; k < bytes; ++k) row += static_cast<char>(label >> (8 * k) & 0xffU);
-      }
-      packer.add(row, z + 1 == geometry.counts[2] && y + 1 == geometry.counts[1]);
+  const auto add = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+    std::string text;
+    for (const Label found : row) {
+      const Label label = found > largest ? 0 : found;
+      for (int k = 0; k < bytes; ++k) text += static_cast<char>(label >> (8 * k) & 0xffU);
     }
-  }
+    packer.add(text, z + 1 == geometry.counts[2] && y + 1 == geometry.counts[1]);
+  };
+  for_each_row(volume, execution, "Writing labels", add);
   const std::string header = is_nrrd
                                  ? nrrd_header(geometry, is_short)
                                  : meta_image_header(geometry, is_short, packer.packed().size());

@@ -19,17 +19,14 @@ struct Corners {
 Corners corners_of(LabelVolume& scan, const Execution& execution) {
   const VoxelCounts& counts = scan.geometry().counts;
   Corners corners;
-  scan.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      const std::vector<Label>& row = scan.next_row();
-      corners.has_nan = corners.has_nan || std::find(row.begin(), row.end(), 0) != row.end();
-      if (y != 0 && y + 1 != counts[1]) continue;
-      ++corners.values[row.front()];
-      ++corners.values[row.back()];
-    }
-  }
+  for_each_row(scan, execution, "Reading the volume",
+               [&](const std::vector<Label>& row, std::int32_t y, std::int32_t /*z*/) {
+                 corners.has_nan =
+                     corners.has_nan || std::find(row.begin(), row.end(), 0) != row.end();
+                 if (y != 0 && y + 1 != counts[1]) return;
+                 ++corners.values[row.front()];
+                 ++corners.values[row.back()];
+               });
   return corners;
 }
 
@@ -117,16 +114,13 @@ std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execut
   if (!is_filled && !corners.has_nan) return {};
   std::vector<std::uint8_t> nan;
   std::vector<std::uint8_t> filled;
-  scan.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(0.5 + 0.5 * z / counts[2], "Reading the volume");
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      for (const Label value : scan.next_row()) {
-        if (corners.has_nan) nan.push_back(value == 0 ? 2 : 0);
-        if (is_filled) filled.push_back(value == most.first ? 2 : 0);
-      }
-    }
-  }
+  for_each_row(scan, execution.part(0.5, 1.0), "Reading the volume",
+               [&](const std::vector<Label>& row) {
+                 for (const Label value : row) {
+                   if (corners.has_nan) nan.push_back(value == 0 ? 2 : 0);
+                   if (is_filled) filled.push_back(value == most.first ? 2 : 0);
+                 }
+               });
   keep_connected_to_border(nan, counts);
   keep_connected_to_border(filled, counts);
   const auto count_of = [](const std::vector<std::uint8_t>& marks) {

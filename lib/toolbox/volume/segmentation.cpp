@@ -59,21 +59,12 @@ class RenumberedVolume : public LabelVolume {
   std::vector<Label> row_;
 };
 
-/// Calls take(labels) for each row of a volume, from its beginning.
-template <class Take>
-void for_each_row(LabelVolume& volume, const Execution& execution, const Take& take) {
-  const VoxelCounts& counts = volume.geometry().counts;
-  volume.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Reading the volume");
-    for (std::int32_t y = 0; y < counts[1]; ++y) take(volume.next_row());
-  }
-}
-
 std::size_t voxels_of(const VoxelCounts& counts) {
   return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
          static_cast<std::size_t>(counts[2]);
 }
+
+constexpr const char* reading_stage = "Reading the volume";
 
 /// A volume of so few values may be a mask of phases.
 constexpr std::size_t most_phases = 8;
@@ -99,7 +90,7 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
   std::uint64_t count = 0;
   std::uint64_t equal = 0;
   std::size_t voxel = 0;
-  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+  for_each_row(volume, execution, reading_stage, [&](const std::vector<Label>& row) {
     float before = std::numeric_limits<float>::quiet_NaN();
     for (const Label code : row) {
       const float value = grey_value(code);
@@ -145,7 +136,7 @@ std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& executio
                                   const IsMaterial& is_material) {
   std::vector<std::uint8_t> mask;
   mask.reserve(voxels_of(volume.geometry().counts));
-  for_each_row(volume, execution, [&](const std::vector<Label>& row) {
+  for_each_row(volume, execution, reading_stage, [&](const std::vector<Label>& row) {
     for (const Label value : row) mask.push_back(is_material(value) ? 1 : 0);
   });
   return mask;
@@ -232,7 +223,7 @@ bool are_phases(const std::vector<std::uint16_t>& grey, const VolumeGeometry& ge
       parts_of(std::make_unique<HeldVolume>(geometry, std::vector<Label>(grey.begin(), grey.end())),
                none, execution);
   std::vector<std::int64_t> voxels;  // of each part
-  for_each_row(*parts, execution, [&](const std::vector<Label>& row) {
+  for_each_row(*parts, execution, reading_stage, [&](const std::vector<Label>& row) {
     for (const Label part : row) {
       if (part >= voxels.size()) voxels.resize(part + std::size_t{1}, 0);
       ++voxels[part];
@@ -261,7 +252,7 @@ ShortGrey short_grey(LabelVolume& scan, const GreyRange& range,
   result.step = is_short ? 1.0 : (range.upper - result.base) / most;
   std::vector<std::uint16_t>& grey = result.grey;
   grey.reserve(voxels_of(scan.geometry().counts));
-  for_each_row(scan, execution, [&](const std::vector<Label>& row) {
+  for_each_row(scan, execution, reading_stage, [&](const std::vector<Label>& row) {
     // What was not scanned gets the value before it, so that smoothing does not change its
     // neighbours.
     float value = range.least;
@@ -496,7 +487,7 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
   const auto width = static_cast<std::size_t>(counts[0]);
   const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
   std::size_t k = 0;
-  for_each_row(labels, execution, [&](const std::vector<Label>& row) {
+  for_each_row(labels, execution, reading_stage, [&](const std::vector<Label>& row) {
     for (std::size_t x = 0; x < row.size(); ++x, ++k) {
       const Label label = row[x];
       if (label == 0) continue;

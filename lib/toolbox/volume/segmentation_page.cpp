@@ -36,22 +36,17 @@ struct ShownSlice {
 /// Reads the slices' parts of each row of a volume into the member `of` of each slice.
 void read_slices(LabelVolume& volume, std::vector<ShownSlice>& slices,
                  std::vector<Label> ShownSlice::*of, const Execution& execution) {
-  const VoxelCounts& counts = volume.geometry().counts;
-  volume.rewind();
-  for (std::int32_t z = 0; z < counts[2]; ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Drawing slices");
-    for (std::int32_t y = 0; y < counts[1]; ++y) {
-      const std::vector<Label>& row = volume.next_row();
-      for (ShownSlice& slice : slices) {
-        std::vector<Label>& taken = slice.*of;
-        if (slice.axis == 0) {
-          taken.push_back(row[static_cast<std::size_t>(slice.place)]);
-        } else if ((slice.axis == 1 ? y : z) == slice.place) {
-          taken.insert(taken.end(), row.begin(), row.end());
-        }
+  const auto take = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+    for (ShownSlice& slice : slices) {
+      std::vector<Label>& taken = slice.*of;
+      if (slice.axis == 0) {
+        taken.push_back(row[static_cast<std::size_t>(slice.place)]);
+      } else if ((slice.axis == 1 ? y : z) == slice.place) {
+        taken.insert(taken.end(), row.begin(), row.end());
       }
     }
-  }
+  };
+  for_each_row(volume, execution, "Drawing slices", take);
 }
 
 /// Returns the place of the slice across x, y and z with the most boundary of grains in it.
@@ -63,24 +58,22 @@ VoxelCounts fullest_slices(LabelVolume& labels, Label grains, const Execution& e
   }
   const auto width = static_cast<std::size_t>(counts[0]);
   std::vector<Label> slice_before(width * static_cast<std::size_t>(counts[1]), 0);
-  labels.rewind();
-  for (std::size_t z = 0; z < boundary[2].size(); ++z) {
-    execution.report(static_cast<double>(z) / counts[2], "Choosing slices");
-    for (std::size_t y = 0; y < boundary[1].size(); ++y) {
-      std::vector<Label> row = labels.next_row();
-      for (std::size_t x = 0; x < width; ++x) {
-        if (row[x] > grains) row[x] = 0;
-        Label& before = slice_before[y * width + x];
-        const bool along_x = x > 0 && row[x] != row[x - 1];
-        const bool along_y = y > 0 && row[x] != slice_before[(y - 1) * width + x];
-        const bool along_z = z > 0 && row[x] != before;
-        boundary[0][x] += (along_y ? 1U : 0U) + (along_z ? 1U : 0U);
-        boundary[1][y] += (along_x ? 1U : 0U) + (along_z ? 1U : 0U);
-        boundary[2][z] += (along_x ? 1U : 0U) + (along_y ? 1U : 0U);
-        before = row[x];
-      }
+  std::size_t k = 0;  // of the slice's voxels
+  const auto take = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
+    if (y == 0) k = 0;
+    Label left = 0;
+    for (std::size_t x = 0; x < width; ++x, ++k) {
+      const Label here = row[x] > grains ? 0 : row[x];
+      const bool along_x = x > 0 && here != left;
+      const bool along_y = y > 0 && here != slice_before[k - width];
+      const bool along_z = z > 0 && here != slice_before[k];
+      boundary[0][x] += (along_y ? 1U : 0U) + (along_z ? 1U : 0U);
+      boundary[1][static_cast<std::size_t>(y)] += (along_x ? 1U : 0U) + (along_z ? 1U : 0U);
+      boundary[2][static_cast<std::size_t>(z)] += (along_x ? 1U : 0U) + (along_y ? 1U : 0U);
+      slice_before[k] = left = here;
     }
-  }
+  };
+  for_each_row(labels, execution, "Choosing slices", take);
   VoxelCounts places = {};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Of equal slices the one nearest to the middle.

@@ -52,14 +52,8 @@ class VolumeOfParts : public LabelVolume {
       return joined.add();
     };
     const auto link = [&](std::uint32_t a, std::uint32_t b) { joined.join(a, b); };
-    const VoxelCounts& counts = geometry().counts;
-    volume_->rewind();
-    for (std::int32_t z = 0; z < counts[2]; ++z) {
-      execution.report(static_cast<double>(z) / counts[2], "Separating parts");
-      for (std::int32_t y = 0; y < counts[1]; ++y) {
-        tracker_.add_row(volume_->next_row(), begin_part, link);
-      }
-    }
+    for_each_row(*volume_, execution, "Separating parts",
+                 [&](const std::vector<Label>& row) { tracker_.add_row(row, begin_part, link); });
     numbers_.resize(joined.size());
     Label next = 1;
     for (std::uint32_t part = 0; part < numbers_.size(); ++part) {
