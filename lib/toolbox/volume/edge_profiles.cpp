@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/edge_profiles.h"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -10,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "toolbox/volume/segmentation.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/grain_plateaus.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
+#include "toolbox/volume/segmentation.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/portable_math.h"
 
 namespace wscvt {
@@ -114,20 +114,14 @@ double space_of(const std::vector<std::uint16_t>& grey, const std::vector<std::u
 void grow(std::vector<std::uint32_t>& labels, const VoxelCounts& counts) {
   // The sides of the median, of the mean and of the Laplacian of level_mask.
   constexpr int faces = 3;
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
   std::vector<std::pair<std::size_t, std::uint32_t>> next;
   for (int face = 0; face < faces; ++face) {
     next.clear();
     for (std::size_t k = 0; k < labels.size(); ++k) {
       if (labels[k] != 0) continue;
       std::uint32_t found = 0;
-      if (k % width > 0) found = std::max(found, labels[k - 1]);
-      if (k % width + 1 < width) found = std::max(found, labels[k + 1]);
-      if (k % slice >= width) found = std::max(found, labels[k - width]);
-      if (k % slice + width < slice) found = std::max(found, labels[k + width]);
-      if (k >= slice) found = std::max(found, labels[k - slice]);
-      if (k + slice < labels.size()) found = std::max(found, labels[k + slice]);
+      for_each_neighbour(k, counts,
+                         [&](std::size_t other) { found = std::max(found, labels[other]); });
       if (found != 0) next.emplace_back(k, found);
     }
     for (const auto& [k, label] : next) labels[k] = label;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/level_mask.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
 
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/numbers.h"
 
 namespace wscvt {
@@ -34,21 +33,14 @@ Clamped clamped_at(const GreyLevel& level) {
 double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
                const VoxelCounts& counts, const GreyLevel& level) {
   const Clamped clamped = clamped_at(level);
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
   std::uint64_t sum = 0;
   std::uint64_t pairs = 0;
-  const auto look = [&](std::size_t a, std::size_t b) {
+  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
     if ((grey[a] < level.value) == (grey[b] < level.value)) return;
     if (!outside.empty() && (outside[a] != 0 || outside[b] != 0)) return;
     sum += static_cast<std::uint64_t>(std::abs(clamped(grey[a]) - clamped(grey[b])));
     ++pairs;
-  };
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width > 0) look(k, k - 1);
-    if (k % slice >= width) look(k, k - width);
-    if (k >= slice) look(k, k - slice);
-  }
+  });
   if (pairs == 0 || sum == 0) return 0.0;
   // By tenths of a voxel of a Gaussian blur s: the mean difference over all places and directions
   // of an edge, 4 times the integral of (1 - v) (Phi(v / s) - 1 / 2) over v from 0 to 1.
@@ -129,25 +121,17 @@ std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
   constexpr double voxels = 27.0;
   const double at = voxels * level.value;
   const auto is_material = [&](double sum) { return level.is_dark ? sum <= at : sum >= at; };
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  const auto slice = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
   execution.parallel_for(
       static_cast<std::size_t>(counts[2]), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin * slice; k < end * slice; ++k) {
           const bool is_in = is_material(sums[k]);
           bool is_beside = false;
           double laplacian = 0.0;
-          const auto look = [&](bool has_neighbour, std::size_t other) {
-            if (!has_neighbour) return;
+          for_each_neighbour(k, counts, [&](std::size_t other) {
             is_beside = is_beside || is_material(sums[other]) != is_in;
             laplacian += static_cast<double>(sums[other]) - static_cast<double>(sums[k]);
-          };
-          look(k % width > 0, k - 1);
-          look(k % width + 1 < width, k + 1);
-          look(k % slice >= width, k - width);
-          look(k % slice + width < slice, k + width);
-          look(k >= slice, k - slice);
-          look(k + slice < sums.size(), k + slice);
+          });
           const bool is_taken = is_beside ? is_material(sums[k] - back * laplacian) : is_in;
           mask[k] = is_taken && is_scanned(k) ? 1 : 0;
         }

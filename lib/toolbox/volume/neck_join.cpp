@@ -20,20 +20,12 @@ struct Neck {
 /// Returns the necks, the widest first.
 std::vector<Neck> necks_of(const std::vector<std::uint32_t>& labels,
                            const std::vector<std::uint16_t>& distances, const VoxelCounts& counts) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint16_t> widest;
-  const auto look = [&](std::size_t a, std::size_t b) {
+  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
     if (labels[a] == labels[b] || labels[a] == 0 || labels[b] == 0) return;
     std::uint16_t& neck = widest[std::minmax(labels[a], labels[b])];
     neck = std::max(neck, std::min(distances[a], distances[b]));
-  };
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    if (labels[k] == 0) continue;
-    if (k % width > 0) look(k, k - 1);
-    if (k % slice >= width) look(k, k - width);
-    if (k >= slice) look(k, k - slice);
-  }
+  });
   std::vector<Neck> necks;
   for (const auto& [pair, distance] : widest) necks.push_back({distance, pair.first, pair.second});
   std::stable_sort(necks.begin(), necks.end(),
@@ -90,18 +82,6 @@ class BallRow {
   double squared_;
   std::vector<Ball> largest_;
 };
-
-/// Calls take(neighbour) for the neighbours of a voxel by faces.
-template <class Take>
-void for_each_neighbour(std::size_t k, const VoxelCounts& counts, const Take& take) {
-  std::size_t stride = 1;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t next = stride * static_cast<std::size_t>(counts[axis]);
-    if (k % next >= stride) take(k - stride);
-    if (k % next + stride < next) take(k + stride);
-    stride = next;
-  }
-}
 
 /// Gives voxels that are cut off from the deepest one of their grain the label of a neighbour.
 void join_cut_off(std::vector<std::uint32_t>& labels, const std::vector<std::uint16_t>& distances,

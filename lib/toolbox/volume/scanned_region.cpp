@@ -54,12 +54,7 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
   while (!open.empty()) {
     const std::size_t k = open.back();
     open.pop_back();
-    if (k % width > 0) take(k - 1);
-    if (k % width + 1 < width) take(k + 1);
-    if (k % slice >= width) take(k - width);
-    if (k % slice + width < slice) take(k + width);
-    if (k >= slice) take(k - slice);
-    if (k + slice < marks.size()) take(k + slice);
+    for_each_neighbour(k, counts, take);
   }
   std::replace(marks.begin(), marks.end(), std::uint8_t{2}, std::uint8_t{0});
 }

@@ -6,10 +6,8 @@
 #include <new>
 #include <utility>
 
-#include "toolbox/volume/grain_plateaus.h"
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
-#include "toolbox/volume/level_mask.h"
 #include "toolbox/volume/segmentation_steps.h"
 #include "toolbox/volume/volume_parts.h"
 #include "wscvt/base/error.h"
@@ -165,10 +163,6 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
                                          const VoxelCounts& sizes,
                                          const std::vector<std::uint64_t>& counts) {
   const auto width = static_cast<std::size_t>(sizes[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(sizes[1]);
-  const auto difference = [&](std::size_t a, std::size_t b) {
-    return static_cast<std::size_t>(std::abs(int{grey[a]} - int{grey[b]}));
-  };
   // Most neighbours differ by noise only. Surfaces differ by a third of the contrast and more.
   const std::size_t noise = quantile_of(differences_of(grey, width, counts.size()), 0.5);
   // A few voxels of a very bright phase do not widen the range.
@@ -176,14 +170,10 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
   const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
   const std::size_t alike = std::max<std::size_t>({1, 4 * noise, range / 16});
   std::vector<std::uint8_t> is_inside(grey.size(), 1);
-  const auto look = [&](std::size_t a, std::size_t b) {
-    if (difference(a, b) > alike) is_inside[a] = is_inside[b] = 0;
-  };
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width > 0) look(k, k - 1);
-    if (k % slice >= width) look(k, k - width);
-    if (k >= slice) look(k, k - slice);
-  }
+  for_each_pair(sizes, [&](std::size_t a, std::size_t b) {
+    const auto difference = static_cast<std::size_t>(std::abs(int{grey[a]} - int{grey[b]}));
+    if (difference > alike) is_inside[a] = is_inside[b] = 0;
+  });
   std::vector<std::uint64_t> inside(counts.size(), 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
     if (is_inside[k] != 0 && (outside.empty() || outside[k] == 0)) ++inside[grey[k]];

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "toolbox/volume/edge_steps.h"
 #include "toolbox/volume/label_census.h"
 #include "toolbox/volume/label_volume.h"
 #include "wscvt/base/execution.h"
@@ -59,6 +58,18 @@ inline constexpr NumberOption<std::int64_t> smallest_kept_option = {
     1,          std::numeric_limits<std::int64_t>::max(),
     Ends::Both, "smaller grains are dropped"};
 
+/// Two steps of grey values across the surface of grains, such as of a coat, a film or a core.
+struct EdgeSteps {
+  double space = 0.0;      ///< grey value of the void
+  double layer = 0.0;      ///< of a layer at the surface
+  double inside = 0.0;     ///< of what is below it
+  double thickness = 0.0;  ///< of the layer; voxels; 0: too thin to measure, see film_between
+  double fraction = 0.0;   ///< of the surface of all grains, 0 to 1
+
+  /// The grey values go on from the void beyond the layer; otherwise they turn back.
+  bool goes_on() const { return (layer > space) == (inside > layer); }
+};
+
 /// Result of segment.
 struct Segmentation {
   /// Grains from 1, each of one part, in the order in which they begin; 0 between them; dropped
@@ -89,9 +100,9 @@ struct Segmentation {
 ///
 /// Segments a scan, which gives grey values from then on (see LabelVolume) and may be read again:
 /// the median of each voxel and its 26 neighbours, again if noise leaves one peak, the threshold
-/// with a correction of the blur (see level_mask.h), the wall of a container left out (see
+/// with a correction of the blur (see level_mask), the wall of a container left out (see
 /// segmentation_steps.h), unless a threshold is given the surface of each grain half way to its own
-/// grey value (see grain_plateaus.h), holes in the material filled, touching parts separated. A
+/// grey value (see even_contrast), holes in the material filled, touching parts separated. A
 /// volume of two values is a mask; the larger value is the material, or the smaller one if it is
 /// dark. So is one of a value and NaN, which is void, and one of up to eight values, most of them
 /// equal to their neighbours', if the options have a threshold or a number of phases. Throws Error:

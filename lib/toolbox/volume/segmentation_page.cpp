@@ -10,7 +10,7 @@
 
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/sample/distribution.h"
-#include "toolbox/volume/level_mask.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"

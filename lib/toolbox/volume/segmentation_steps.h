@@ -1,13 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_volume.h"
 #include "wscvt/base/execution.h"
 
 namespace wscvt {
+
+struct EdgeSteps;  // segmentation.h
+
+// The steps of segment, in their order, and the neighbours of a voxel.
+
+/// Calls take(neighbour) for the neighbours of a voxel by faces. Voxels are numbered x fastest.
+template <class Take>
+void for_each_neighbour(std::size_t voxel, const VoxelCounts& counts, const Take& take) {
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  const std::size_t x = voxel % width;
+  const std::size_t in_slice = voxel % slice;
+  if (x > 0) take(voxel - 1);
+  if (x + 1 < width) take(voxel + 1);
+  if (in_slice >= width) take(voxel - width);
+  if (in_slice + width < slice) take(voxel + width);
+  if (voxel >= slice) take(voxel - slice);
+  if (voxel + slice < slice * static_cast<std::size_t>(counts[2])) take(voxel + slice);
+}
+
+/// Calls take(voxel, neighbour) once for each pair of voxels with a common face; the neighbour has
+/// the smaller number.
+template <class Take>
+void for_each_pair(const VoxelCounts& counts, const Take& take) {
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  const std::size_t size = slice * static_cast<std::size_t>(counts[2]);
+  for (std::size_t voxel = 0; voxel < size; ++voxel) {
+    if (voxel % width > 0) take(voxel, voxel - 1);
+    if (voxel % slice >= width) take(voxel, voxel - width);
+    if (voxel >= slice) take(voxel, voxel - slice);
+  }
+}
 
 /// The wall of a container in which grains were scanned.
 struct ContainerWall {
@@ -31,6 +67,89 @@ ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelC
 ///   that reaches from one side of the volume to the opposite one, such as the cylinder of a
 ///   reconstruction. Void between grains leaves no convex body.
 std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution);
+
+/// A level of grey values, and which side of it is material.
+struct GreyLevel {
+  double value = 0.0;
+  double contrast = 0.0;  ///< between the phases beside the level; 0: unknown
+  bool is_dark = false;   ///< the material is up to the level, not from it on
+  int medians = 1;        ///< of 27 voxels that smoothed the grey values
+};
+
+/// The largest standard deviation of a blur that level_mask corrects; voxels.
+inline constexpr double largest_blur = 1.5;
+
+/// Returns the standard deviation of the blur at a level along an axis, in voxels, from neighbours
+/// on either side of the level; 0 without any. `outside` as in level_mask.
+double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
+               const VoxelCounts& counts, const GreyLevel& level);
+
+/// Returns 1 for each voxel of material among smoothed grey values, x fastest.
+///
+/// The blur of a scan and the median move the surface of a grain to its hollow side, by half of
+/// their variance times the curvature: a ball of 8 voxels radius loses 6 % of its volume. Here the
+/// grey values are averaged over 27 voxels, and the multiple of their Laplacian is taken away that
+/// moves a curved edge back. The blur is measured: it is what neighbours across the level differ
+/// by. A blur of more than `largest_blur` counts as this. Only voxels beside the level of the
+/// averages change sides, so that noise makes no specks.
+///
+/// `outside`: 1 for voxels that were not scanned and are no material; empty: none. Memory is 9
+/// bytes per voxel.
+std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
+                                     const std::vector<std::uint8_t>& outside,
+                                     const VoxelCounts& counts, const GreyLevel& level,
+                                     const Execution& execution);
+
+/// Grey values with the material by one level for all.
+struct LevelledVolume {
+  const std::vector<std::uint16_t>& grey;     ///< smoothed, x fastest
+  const std::vector<std::uint8_t>& mask;      ///< the material
+  const std::vector<std::uint8_t>& left_out;  ///< 1: neither void nor material; empty: none
+  VoxelCounts counts;
+  std::array<double, 3> spacing;  ///< edges of a voxel
+  double level = 0.0;
+};
+
+/// Fits one and two blurred steps to the mean grey values along lines across the surface of each
+/// grain, from 5 voxels outside to 6 inside. Sets the `plateaus` of grains that turn back below an
+/// outer layer to that of the layer. Returns the steps of all grains that go on, and of all that
+/// turn back, as they are on the average; grey values as in `scan`, which is not smoothed.
+/// `labels`: of the grains, 0 between them; `plateaus`: one for each label; `is_dark`: the material
+/// is darker than the void.
+std::vector<EdgeSteps> use_layers(const LevelledVolume& volume,
+                                  const std::vector<std::uint16_t>& scan,
+                                  const std::vector<std::uint32_t>& labels, bool is_dark,
+                                  std::vector<double>& plateaus);
+
+/// Grey values of the void and of the phases of material, the nearest to the void first. All are
+/// brighter than the void, or all darker.
+struct Phases {
+  double space = 0.0;
+  std::vector<double> materials;
+};
+
+/// Contrast of the values that even_contrast returns.
+inline constexpr std::uint16_t even_full = 1000;
+
+struct EvenContrast {
+  std::vector<std::uint16_t> grey;
+  /// The means of grains with two steps, those that go on and those that turn back, if there are
+  /// such.
+  std::vector<EdgeSteps> steps;
+};
+
+/// Returns grey values in which the void is 0 and each grain is `even_full`, so that the surface of
+/// each is at half of this. With one level for all, grains brighter than others come out too large:
+/// the level is in the outer part of their blurred edge.
+///
+/// `scan`: grey values that are not smoothed. `basins`: of the mask with its holes filled, with
+/// distances to the void. The grey value of a basin is that of a shell below its surface, in the
+/// phase that is nearest to the void there: not that of an inclusion. If the mean grey values
+/// across its surface fall again, it is that of the outer layer, which may be thinner than what
+/// smoothing leaves. That of the void is measured away from grains. Only voxels near the surface of
+/// the mask change sides.
+EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
+                           Basins basins, Phases phases);
 
 /// Joins parts of grains that a watershed has cut. `labels`: of basins, from 1, and 0 for void, x
 /// fastest; changed to one label for the parts joined. `distances`: from each voxel to the
