@@ -264,12 +264,12 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
   return shape;
 }
 
-/// Reads one slice at a time.
-class Hdf5Volume : public LabelVolume {
+/// The bytes of the voxels, read slice by slice.
+class Hdf5Bytes : public MadeBytes {
  public:
-  Hdf5Volume(const ShapedVolume& volume, std::string path, std::string name,
-             const VolumeChoice& choice)
-      : LabelVolume(volume.geometry), path_(std::move(path)) {
+  Hdf5Bytes(const ShapedVolume& volume, std::string path, const std::string& name,
+            const VolumeChoice& choice)
+      : path_(std::move(path)) {
     const auto lock = alone();
     file_ = Handle(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     // The dimensions, the slowest first; the first dimension of space is the slices'.
@@ -280,37 +280,22 @@ class Hdf5Volume : public LabelVolume {
       counts_.push_back(is_space ? static_cast<hsize_t>(axis.count) : 1);
       if (is_space && slices_ == none) slices_ = counts_.size() - 1;
     }
-    counts_[slices_] = 1;
+    end_ = std::exchange(counts_[slices_], hsize_t{1});
     data_set_ = Handle(H5Dopen2(file_, name.c_str(), access_list(name)), H5Dclose);
-    const std::optional<VoxelType> type = type_of(data_set_);
-    if (!type) refuse_volume(path_, "was changed while it was read. Run the command again.");
-    type_ = *type;
     const Handle stored(H5Dget_type(data_set_), H5Tclose);
     memory_type_ = Handle(H5Tget_native_type(stored, H5T_DIR_ASCEND), H5Tclose);
+    if (!memory_type_.is_there()) {
+      refuse_volume(path_, "was changed while it was read. Run the command again.");
+    }
   }
-  Hdf5Volume(const Hdf5Volume&) = delete;
-  Hdf5Volume& operator=(const Hdf5Volume&) = delete;
-  ~Hdf5Volume() override {
+  Hdf5Bytes(const Hdf5Bytes&) = delete;
+  Hdf5Bytes& operator=(const Hdf5Bytes&) = delete;
+  ~Hdf5Bytes() override {
     const auto lock = alone();
     memory_type_ = Handle(H5I_INVALID_HID, H5Tclose);
     data_set_ = Handle(H5I_INVALID_HID, H5Dclose);
     file_ = Handle(H5I_INVALID_HID, H5Fclose);
   }
-
-  const std::vector<Label>& next_row() override {
-    const auto rows = static_cast<std::size_t>(geometry().counts[1]);
-    const auto row_bytes =
-        static_cast<std::size_t>(geometry().counts[0]) * static_cast<std::size_t>(type_.bytes);
-    if (next_ % rows == 0) read_slice(next_ / rows, rows * row_bytes);
-    row_.resize(static_cast<std::size_t>(geometry().counts[0]));
-    labels_of(
-        slice_.data() + next_ % rows * row_bytes, type_, coding(), row_,
-        {path_, static_cast<std::int64_t>(next_ % rows), static_cast<std::int64_t>(next_ / rows)});
-    ++next_;
-    return row_;
-  }
-
-  void rewind() override { next_ = 0; }
 
  private:
   static constexpr std::size_t none = 100;
@@ -334,22 +319,26 @@ class Hdf5Volume : public LabelVolume {
     return list;
   }
 
-  void read_slice(std::size_t z, std::size_t bytes) {
-    constexpr std::size_t most = std::size_t{1} << 32;
-    if (bytes > most) refuse_volume(path_, "has slices of more than 4 GiB, which is too large.");
+  bool make(std::vector<char>& made) override {
+    if (begin_[slices_] == end_) return false;
     const auto lock = alone();
-    slice_.resize(bytes);
-    begin_[slices_] = z;
+    hsize_t bytes = H5Tget_size(memory_type_);
+    for (const hsize_t count : counts_) bytes *= count;
+    constexpr hsize_t most = hsize_t{1} << 32;
+    if (bytes > most) refuse_volume(path_, "has slices of more than 4 GiB, which is too large.");
+    made.resize(bytes);
     const Handle space(H5Dget_space(data_set_), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(counts_.size()), counts_.data(), nullptr),
                         H5Sclose);
     if (H5Sselect_hyperslab(space, H5S_SELECT_SET, begin_.data(), nullptr, counts_.data(),
                             nullptr) < 0 ||
-        H5Dread(data_set_, memory_type_, memory, space, H5P_DEFAULT, slice_.data()) < 0) {
+        H5Dread(data_set_, memory_type_, memory, space, H5P_DEFAULT, made.data()) < 0) {
       refuse_volume(path_,
                     "is damaged, or packed by a filter that is not installed. Copy it again, "
                     "or export it packed by gzip.");
     }
+    ++begin_[slices_];
+    return true;
   }
 
   std::string path_;
@@ -359,10 +348,7 @@ class Hdf5Volume : public LabelVolume {
   std::vector<hsize_t> begin_;
   std::vector<hsize_t> counts_;
   std::size_t slices_ = none;  ///< the dimension
-  VoxelType type_;
-  std::size_t next_ = 0;  ///< row
-  std::vector<char> slice_;
-  std::vector<Label> row_;
+  hsize_t end_ = 0;            ///< number of slices
 };
 
 }  // namespace
@@ -372,6 +358,7 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
   std::string name;
   Sentence note;
   ArrayShape shape;
+  VoxelType type;
   {
     const auto lock = alone();
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
@@ -401,9 +388,12 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     }
     name = names[chosen_array(names, from_root, path)];
     shape = shape_of(file, name, path);
+    type = type_of(Handle(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose)).value();
   }
   const ShapedVolume shaped = volume_of_shape(shape, choice, path);
-  auto volume = std::make_unique<Hdf5Volume>(shaped, path, name, choice);
+  std::unique_ptr<LabelVolume> volume = volume_of_bytes(
+      shaped.geometry, type, {},
+      [=] { return std::make_unique<Hdf5Bytes>(shaped, path, name, choice); }, path);
   if (!note.empty()) volume->add_note(note);
   return volume;
 }

@@ -211,67 +211,44 @@ std::string text_of(const SliceImage& image) {
          image.numbers;
 }
 
-/// Slices in separate files, of which one is in memory.
-class ImageStack : public LabelVolume {
+/// The bytes of slices in separate files, of which one is in memory.
+class SliceBytes : public MadeBytes {
  public:
   /// `channel`: the selected one; -1: all colours must be equal.
-  ImageStack(const VolumeGeometry& geometry, SliceImage form, std::int64_t channel,
-             std::vector<std::string> paths, ReadSlice read)
-      : LabelVolume(geometry),
-        slice_(std::move(form)),
+  SliceBytes(SliceImage form, std::int64_t channel, std::vector<std::string> paths,
+             ReadSlice read_slice)
+      : form_(std::move(form)),
         channel_(channel),
         paths_(std::move(paths)),
-        read_(read),
-        next_row_(slice_.height) {}
-
-  const std::vector<Label>& next_row() override {
-    if (next_row_ == slice_.height) read_next();
-    const auto width = static_cast<std::size_t>(slice_.width);
-    const std::size_t voxel = slice_.channels * slice_.bytes;
-    const std::string& path = paths_[next_slice_ - 1];
-    const char* packed =
-        slice_.content.data() + static_cast<std::size_t>(next_row_) * width * voxel;
-    if (slice_.channels > 1) {
-      const auto chosen = static_cast<std::size_t>(std::max<std::int64_t>(channel_, 0));
-      voxels_.resize(width * slice_.bytes);
-      for (std::size_t x = 0; x < width; ++x) {
-        if (channel_ < 0) check_colours_equal(packed + x * voxel, slice_.bytes, path);
-        std::copy_n(packed + x * voxel + chosen * slice_.bytes, slice_.bytes,
-                    voxels_.data() + x * slice_.bytes);
-      }
-      packed = voxels_.data();
-    }
-    row_.resize(width);
-    labels_of(packed, {static_cast<int>(slice_.bytes), false, false, true}, coding(), row_,
-              {path, next_row_, static_cast<std::int64_t>(next_slice_) - 1});
-    ++next_row_;
-    return row_;
-  }
-
-  void rewind() override {
-    next_slice_ = 0;
-    next_row_ = slice_.height;
-  }
+        read_slice_(read_slice) {}
 
  private:
-  void read_next() {
-    const std::string& path = paths_.at(next_slice_++);
-    SliceImage here = read_(path, true);
-    if (!are_alike(here, slice_)) {  // checked when it was opened, so it has changed since
+  bool make(std::vector<char>& made) override {
+    if (next_ == paths_.size()) return false;
+    const std::string& path = paths_[next_++];
+    SliceImage image = read_slice_(path, true);
+    if (!are_alike(image, form_)) {  // checked when it was opened, so it has changed since
       refuse_volume(path, "was changed while it was read. Run the command again.");
     }
-    slice_ = std::move(here);
-    next_row_ = 0;
+    if (image.channels == 1) {
+      made = std::move(image.content);
+      return true;
+    }
+    const auto chosen = static_cast<std::size_t>(std::max<std::int64_t>(channel_, 0));
+    const std::size_t voxel = image.channels * image.bytes;
+    for (std::size_t k = 0; k < image.content.size(); k += voxel) {
+      const char* const numbers = image.content.data() + k;
+      if (channel_ < 0) check_colours_equal(numbers, image.bytes, path);
+      made.insert(made.end(), numbers + chosen * image.bytes, numbers + (chosen + 1) * image.bytes);
+    }
+    return true;
   }
 
-  SliceImage slice_;
+  SliceImage form_;
   std::int64_t channel_;
   std::vector<std::string> paths_;
-  ReadSlice read_;
-  std::size_t next_slice_ = 0;
-  std::int64_t next_row_;
-  std::vector<char> voxels_;
-  std::vector<Label> row_;
+  ReadSlice read_slice_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace
@@ -295,8 +272,13 @@ std::unique_ptr<LabelVolume> open_images(const SliceFiles& slices, const VolumeC
   geometry.counts = voxel_counts(
       {image.width, image.height, static_cast<std::int64_t>(slices.paths.size())}, slices.folder);
   set_lattice(geometry, Eigen::Matrix3d::Identity(), Vector3::Constant(0.5), choice, slices.folder);
-  return std::make_unique<ImageStack>(geometry, image, is_grey && channels > 2 ? -1 : channel,
-                                      slices.paths, read);
+  const std::int64_t chosen = is_grey && channels > 2 ? -1 : channel;
+  return volume_of_bytes(
+      geometry, {static_cast<int>(image.bytes), false, false, true}, {},
+      [image, chosen, paths = slices.paths, read] {
+        return std::make_unique<SliceBytes>(image, chosen, paths, read);
+      },
+      slices.folder);
 }
 
 bool is_foreign_file(const std::string& name) {
