@@ -7,12 +7,16 @@
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #ifdef WSCVT_HAS_TIFF
+#include <tiffio.h>
+
 #include <array>
 #include <boost/endian/conversion.hpp>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
+#include <new>
 
-#include "toolbox/volume/tiff_file.h"
 #include "toolbox/volume/tiff_layout.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -23,6 +27,69 @@ namespace wscvt {
 #ifdef WSCVT_HAS_TIFF
 
 namespace {
+
+/// An open TIFF. Errors of libtiff are kept for the message.
+class TiffFile {
+ public:
+  /// Throws Error(InputOutput) for a file that is no TIFF.
+  explicit TiffFile(const std::string& path) : path_(path) {
+    // Refuses strips for which a damaged file claims more than they could unpack to.
+    most_ = std::min<std::uint64_t>(1U << 30, 1100 * file_size(path) + (1 << 20));
+    TIFFOpenOptions* const options = TIFFOpenOptionsAlloc();
+    if (options == nullptr) throw std::bad_alloc();
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most_));
+    TIFFOpenOptionsSetErrorHandlerExtR(options, note_error, this);
+    TIFFOpenOptionsSetWarningHandlerExtR(options, pass_over, nullptr);
+    tiff_ = TIFFOpenExt(path.c_str(), "r", options);
+    TIFFOpenOptionsFree(options);
+    if (tiff_ == nullptr) fail("is not a TIFF file");
+  }
+  TiffFile(const TiffFile&) = delete;
+  TiffFile& operator=(const TiffFile&) = delete;
+  ~TiffFile() { TIFFClose(tiff_); }
+
+  TIFF* get() const { return tiff_; }
+  const std::string& path() const { return path_; }
+
+  /// Returns the largest possible size of an unpacked strip or tile of the file.
+  std::uint64_t most_bytes() const { return most_; }
+
+  /// Returns the number of pages. Throws Error(InputOutput) for a file that was cut, because
+  /// libtiff cannot reach its other pages.
+  std::int64_t pages() const {
+    const std::int64_t count = TIFFNumberOfDirectories(tiff_);
+    if (!said_.empty()) fail("has lost pages");
+    return count;
+  }
+
+  /// Returns the text that the writing program left on the first page; empty if there is none.
+  std::string description() const {
+    char* text = nullptr;
+    if (TIFFGetField(tiff_, TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return "";
+    return text;
+  }
+
+  /// Throws Error(InputOutput): "path" + what, and libtiff's error.
+  [[noreturn]] void fail(const std::string& what) const {
+    refuse_volume(path_,
+                  what + (said_.empty() ? "" : " (" + shown(said_) + ")") + ". Export it again.");
+  }
+
+ private:
+  static int note_error(TIFF*, void* self, const char*, const char* format, va_list arguments) {
+    char text[256];
+    std::vsnprintf(text, sizeof text, format, arguments);
+    auto& said = static_cast<TiffFile*>(self)->said_;
+    if (said.empty()) said = text;
+    return 1;
+  }
+  static int pass_over(TIFF*, void*, const char*, const char*, va_list) { return 1; }
+
+  std::string path_;
+  std::string said_;
+  std::uint64_t most_ = 0;
+  TIFF* tiff_ = nullptr;
+};
 
 /// Size and type of a page.
 struct Page {
