@@ -48,9 +48,4 @@ TiffLayout slice_layout(const std::string& description);
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path);
 
-/// Returns the layout given in OME's XML, in any order of dimensions, as tiff_layout does:
-/// https://docs.openmicroscopy.org/ome-model/latest/ome-tiff/specification.html
-TiffLayout layout_of_ome(const std::string& text, std::int64_t pages, std::int64_t samples,
-                         const std::string& path);
-
 }  // namespace wscvt
