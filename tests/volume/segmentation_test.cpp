@@ -19,7 +19,6 @@
 #include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_grains.h"
-#include "toolbox/volume/label_writer.h"
 #include "toolbox/volume/segmentation_page.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"

@@ -13,7 +13,6 @@
 #include "program/commands/commands.h"
 #include "program/terminal/work.h"
 #include "toolbox/volume/itk_filters.h"
-#include "toolbox/volume/label_writer.h"
 #include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/segmentation.h"
 #include "toolbox/volume/segmentation_page.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/label_writer.h"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <new>
 #include <ostream>
 
+#include "toolbox/volume/label_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
