@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/exchange/template_files.h"
+#include "toolbox/job/template_job.h"
 
 #include <gtest/gtest.h>
 
