@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "toolbox/volume/byte_source.h"
 #include "toolbox/volume/voxel_rows.h"
@@ -33,6 +34,15 @@ std::string HeaderFile::line() {
   return std::string(trimmed(*text));
 }
 
+std::vector<std::string> HeaderFile::other_lines() {
+  std::vector<std::string> lines;
+  while (!is_at_end()) {
+    std::string next = line();
+    if (!next.empty()) lines.push_back(std::move(next));
+  }
+  return lines;
+}
+
 std::vector<double> numbers_in(std::string_view text, const HeaderFile& file) {
   std::string plain(text);
   for (char& c : plain) {
@@ -52,6 +62,15 @@ Vector3 vector_in(std::string_view text, const HeaderFile& file) {
   const std::vector<double> numbers = numbers_in(text, file);
   if (numbers.size() != 3) file.fail_line("does not have three numbers.");
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+std::vector<std::int64_t> whole_numbers_in(std::string_view text, const HeaderFile& file) {
+  std::vector<std::int64_t> numbers;
+  TextFields fields(text);
+  for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
+    numbers.push_back(whole_number_of(field, file));
+  }
+  return numbers;
 }
 
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file) {

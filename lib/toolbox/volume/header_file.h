@@ -22,6 +22,9 @@ class HeaderFile {
   /// of the file, and for more or longer lines than a header has.
   std::string line();
 
+  /// Returns the lines that are left and not empty.
+  std::vector<std::string> other_lines();
+
   bool is_at_end() const { return reader_.remaining() == 0; }
 
   /// Returns the number of bytes up to the end of the last line read.
@@ -43,6 +46,9 @@ std::vector<double> numbers_in(std::string_view text, const HeaderFile& file);
 
 /// Returns three such numbers.
 Vector3 vector_in(std::string_view text, const HeaderFile& file);
+
+/// Returns the whole numbers of a text, separated by blanks. Throws Error(InputOutput) likewise.
+std::vector<std::int64_t> whole_numbers_in(std::string_view text, const HeaderFile& file);
 
 /// Returns a whole number. Throws Error(InputOutput), naming the line.
 std::int64_t whole_number_of(std::string_view text, const HeaderFile& file);

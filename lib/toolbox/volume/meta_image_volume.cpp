@@ -42,11 +42,7 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
   } else if (name == "ndims") {
     header.dimensions = whole_number_of(value, file);
   } else if (name == "dimsize") {
-    header.sizes.clear();
-    TextFields fields(value);
-    for (auto field = fields.next(); !field.empty(); field = fields.next()) {
-      header.sizes.push_back(whole_number_of(field, file));
-    }
+    header.sizes = whole_numbers_in(value, file);
   } else if (name == "elementtype") {
     header.type = value;
   } else if (name == "elementnumberofchannels") {
@@ -82,11 +78,7 @@ MetaHeader read_meta_header(HeaderFile& file) {
     read_field(lower_case(trimmed(line.substr(0, sign))),
                std::string(trimmed(line.substr(sign + 1))), file, header);
   }
-  if (lower_case(header.data_file).rfind("list", 0) != 0) return header;
-  while (!file.is_at_end()) {
-    const std::string line = file.line();
-    if (!line.empty()) header.list.push_back(line);
-  }
+  if (lower_case(header.data_file).rfind("list", 0) == 0) header.list = file.other_lines();
   return header;
 }
 

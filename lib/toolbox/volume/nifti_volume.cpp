@@ -24,33 +24,11 @@ namespace wscvt {
 
 namespace {
 
-/// Returns the type of a data type code of the header. NIfTI has its own codes.
+/// Returns the type of a data type code of the header.
 VoxelType type_of(int code, const std::string& path) {
-  switch (code) {
-    case DT_UINT8:
-      return {1, false, false, false};
-    case DT_INT8:
-      return {1, true, false, false};
-    case DT_UINT16:
-      return {2, false, false, false};
-    case DT_INT16:
-      return {2, true, false, false};
-    case DT_UINT32:
-      return {4, false, false, false};
-    case DT_INT32:
-      return {4, true, false, false};
-    case DT_UINT64:
-      return {8, false, false, false};
-    case DT_INT64:
-      return {8, true, false, false};
-    case DT_FLOAT32:
-      return {4, true, true, false};
-    case DT_FLOAT64:
-      return {8, true, true, false};
-    default:
-      refuse_volume(path, std::string("has voxels of NIfTI's type ") + nifti_datatype_string(code) +
-                              ". Save labels as whole numbers.");
-  }
+  const std::string name = nifti_datatype_string(code);
+  if (const std::optional<VoxelType> type = known_voxel_type(name)) return *type;
+  refuse_volume(path, "has voxels of NIfTI's type " + name + ". Save labels as whole numbers.");
 }
 
 /// Reads a signed whole number from a header.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "toolbox/volume/header_file.h"
@@ -70,15 +71,14 @@ std::vector<std::optional<Vector3>> directions_in(const std::string& text, const
 
 /// Fields that do not affect the position or type of voxels.
 bool is_passed_over(const std::string& name) {
-  static const std::array<const char*, 17> names = {
-      "space",      "space dimension", "measurement frame",
-      "content",    "number",          "thicknesses",
-      "centers",    "centerings",      "labels",
-      "block size", "blocksize",       "min",
-      "max",        "old min",         "oldmin",
-      "old max",    "oldmax"};
-  return std::find(names.begin(), names.end(), name) != names.end() || name == "sample units" ||
-         name == "sampleunits";
+  static const std::set<std::string> names = {"space",   "space dimension", "measurement frame",
+                                              "content", "number",          "thicknesses",
+                                              "centers", "centerings",      "labels",
+                                              "min",     "block size",      "blocksize",
+                                              "max",     "old min",         "oldmin",
+                                              "old max", "sample units",    "sampleunits",
+                                              "oldmax"};
+  return names.count(name) > 0;
 }
 
 void read_field(const std::string& name, const std::string& value, const HeaderFile& file,
@@ -86,11 +86,7 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
   if (name == "dimension") {
     header.dimension = whole_number_of(value, file);
   } else if (name == "sizes") {
-    header.sizes.clear();
-    TextFields fields(value);
-    for (auto field = fields.next(); !field.empty(); field = fields.next()) {
-      header.sizes.push_back(whole_number_of(field, file));
-    }
+    header.sizes = whole_numbers_in(value, file);
   } else if (name == "type") {
     header.type = value;
   } else if (name == "encoding") {
@@ -145,10 +141,7 @@ NrrdHeader read_nrrd_header(HeaderFile& file) {
                std::string(trimmed(line.substr(colon + 1))), file, header);
   }
   // A list is the last field; the file names follow it.
-  while (is_list() && !file.is_at_end()) {
-    const std::string line = file.line();
-    if (!line.empty()) header.list.push_back(line);
-  }
+  if (is_list()) header.list = file.other_lines();
   return header;
 }
 

@@ -244,11 +244,16 @@ bool begins_packed(const std::string& path, std::uint64_t offset) {
 
 }  // namespace
 
-VoxelType voxel_type_of(std::string_view name, const std::string& path) {
+std::optional<VoxelType> known_voxel_type(std::string_view name) {
   const std::string lower = lower_case(name);
   for (const TypeNames& row : type_names()) {
     if (std::find(row.names.begin(), row.names.end(), lower) != row.names.end()) return row.type;
   }
+  return std::nullopt;
+}
+
+VoxelType voxel_type_of(std::string_view name, const std::string& path) {
+  if (const std::optional<VoxelType> type = known_voxel_type(name)) return *type;
   refuse_volume(path, "holds voxels of type " + in_quotes(name) +
                           ", but labels are whole numbers. Save it as 8, 16 or 32 bits without a "
                           "sign.");

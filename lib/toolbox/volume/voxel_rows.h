@@ -22,6 +22,9 @@ struct VoxelType {
   bool big_endian = false;
 };
 
+/// Returns the type for such a name, or nothing for other names.
+std::optional<VoxelType> known_voxel_type(std::string_view name);
+
 /// Returns the type for a name in NRRD, MetaImage, VTK or a raw file's description ("unsigned
 /// short", "MET_USHORT", "UInt16", "float", ...), in either case; its byte order is little-endian.
 /// Throws Error(InputOutput), naming the file `path`, for other names.
