@@ -28,9 +28,8 @@ std::string call_text(const char* format, const char* files, const Job& job, Jso
   return json_document(call);
 }
 
-/// Returns a job whose table has the columns of a report, given as CSV.
-GrainJob reported_job(const std::string& report) {
-  GrainJob job;
+/// Returns the job with a table that has the columns of a report, given as CSV.
+GrainJob reported_job(GrainJob job, const std::string& report) {
   job.tables = {{"grains", sample_header(report)}};
   job.failed = [report](const std::string& grain,
                         const std::string& error) -> std::vector<std::string> {
@@ -62,10 +61,7 @@ void check_job(const ConvexJob& options) {
 }
 
 GrainJob make_job(const ClumpJob& options, const std::string& folder, const Shard& shard) {
-  GrainJob job = reported_job(clump_csv(ClumpResult()));
-  job.folder = folder;
-  job.shard = shard;
-  job.ending = options.format;
+  GrainJob job = reported_job({folder, shard, options.format}, clump_csv(ClumpResult()));
   job.call = call_text("wscvt-clumps", "clumps", options, {{"options", json_of(options.clump)}});
   job.make = [options](GrainAtWork& grain) -> std::vector<std::string> {
     ClumpResult clump = make_clump(std::move(grain.scan.mesh), options.clump, grain.execution);
@@ -77,10 +73,7 @@ GrainJob make_job(const ClumpJob& options, const std::string& folder, const Shar
 }
 
 GrainJob make_job(const ConvexJob& options, const std::string& folder, const Shard& shard) {
-  GrainJob job = reported_job(parts_csv(PartsResult()));
-  job.folder = folder;
-  job.shard = shard;
-  job.ending = options.format;
+  GrainJob job = reported_job({folder, shard, options.format}, parts_csv(PartsResult()));
   job.beside = [count = options.convex.parts](const std::string& file) {
     return parts_beside(file, count);
   };

@@ -242,10 +242,7 @@ GrainJob make_job(const ExtractJob& options, const std::string& folder, const Sh
   Json call = {{"format", "wscvt-extract"}, {"made_by", made_by()}, {"meshes", options.format}};
   if (of_labels) call["volume"] = json_of(options.volume);
   if (!of_labels) call["smallest"] = options.smallest_body;
-  GrainJob job;
-  job.folder = folder;
-  job.shard = shard;
-  job.ending = options.format;
+  GrainJob job{folder, shard, options.format};
   job.call = json_document(call);
   job.tables = {{"grains", header}};
   if (options.describe) job.tables.push_back({"shape", shape_header(measures_of(options))});

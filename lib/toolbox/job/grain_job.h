@@ -35,17 +35,17 @@ struct GrainJob {
   std::string folder;
   Shard shard;         ///< of which the source has the grains
   std::string ending;  ///< of the files of grains, without the point
-  std::vector<JobFiles> more_files;
+  std::vector<JobFiles> more_files = {};
   /// Returns the files that are made beside the file of a grain, as many as there may be; none: {}.
-  std::function<std::vector<std::string>(const std::string& file)> beside;
+  std::function<std::vector<std::string>(const std::string& file)> beside = {};
   /// Folders in the folder, such as n100, each with all files and tables. Empty: no such folders.
-  std::vector<std::string> levels;
-  std::string call;              ///< options that must be equal when the job is started again; JSON
-  std::vector<JobTable> tables;  ///< of each level; the first is "grains"
-  JobTable last_table = {};      ///< that the caller makes of the first; without a name: none
-  bool has_census = false;       ///< writes GrainSource::census to labels.csv
-  bool reads_pictures = false;   ///< see GrainSource::read
-  bool takes_refused = false;    ///< makes also what is refused, see GrainScan
+  std::vector<std::string> levels = {};
+  std::string call = {};  ///< options that must be equal when the job is started again; JSON
+  std::vector<JobTable> tables = {};  ///< of each level; the first is "grains"
+  JobTable last_table = {};           ///< that the caller makes of the first; without a name: none
+  bool has_census = false;            ///< writes GrainSource::census to labels.csv
+  bool reads_pictures = false;        ///< see GrainSource::read
+  bool takes_refused = false;         ///< makes also what is refused, see GrainScan
   /// A job that is done stays done, and its folder takes no other options. False: when it is done,
   /// only its results stay, so that a call makes them anew.
   bool is_kept = true;
@@ -53,10 +53,10 @@ struct GrainJob {
 
   /// Writes the files of a grain and returns its records: of each level, each table. Called on
   /// several threads at once. What it throws is the failure of the grain, see row_or_failure.
-  std::function<std::vector<std::string>(GrainAtWork& grain)> make;
+  std::function<std::vector<std::string>(GrainAtWork& grain)> make = {};
   /// Returns the records of a grain that failed, for one level.
   std::function<std::vector<std::string>(const std::string& grain, const std::string& error)>
-      failed;
+      failed = {};
 };
 
 /// Returns the folders of the levels; if there are no levels, the folder of the job.

@@ -205,15 +205,6 @@ std::unique_ptr<NamedGrains> grains_of(const GrowJob& job) {
   return std::make_unique<NamedGrains>("grown-", static_cast<std::size_t>(job.grains), 5);
 }
 
-/// Returns a job with only what names its files.
-GrainJob files_of(const GrowJob& options) {
-  GrainJob job;
-  job.folder = options.folder;
-  job.shard = options.shard;
-  job.ending = options.format;
-  return job;
-}
-
 GrainJob job_of(const GrowJob& options, const Growing& growing) {
   Json call = {{"format", "wscvt-grow"},           {"made_by", made_by()},
                {"meshes", options.format},         {"count", options.grains},
@@ -223,7 +214,7 @@ GrainJob job_of(const GrowJob& options, const Growing& growing) {
   for (int k = 0; options.sizes && k <= 10; ++k) {
     call["sizes"].push_back(options.sizes->diameter(0.1 * k));
   }
-  GrainJob job = files_of(options);
+  GrainJob job{options.folder, options.shard, options.format};
   job.call = json_document(call);
   job.tables = {{"grown", csv_record({std::begin(table_heading), std::end(table_heading)})}};
   job.is_kept = false;
@@ -244,7 +235,7 @@ void check_job(const GrowJob& job) {
 }
 
 void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real) {
-  require_scans_kept(files_of(job), *grains_of(job), real);
+  require_scans_kept(GrainJob{job.folder, job.shard, job.format}, *grains_of(job), real);
 }
 
 GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,

@@ -225,10 +225,7 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
   const auto shared = std::make_shared<const RemeshJob>(options);
   const bool describes = options.shapes.described != Described::None;
   const bool has_masses = is_for_simulation(options);
-  GrainJob job;
-  job.folder = folder;
-  job.shard = shard;
-  job.ending = options.format;
+  GrainJob job{folder, shard, options.format};
   for (const std::string& ending : options.node_tables) {
     job.more_files.push_back({"node-table", ending});
   }

@@ -121,18 +121,9 @@ std::unique_ptr<NamedGrains> grains_of(std::size_t count, NamedGrains::Read read
   return std::make_unique<NamedGrains>("template-", count, 2, std::move(read));
 }
 
-/// Returns a job with only what names its files.
-GrainJob files_of(const TemplateJob& options) {
-  GrainJob job;
-  job.folder = options.folder;
-  job.shard = options.shard;
-  job.ending = options.format;
-  return job;
-}
-
 GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
                 const SampleTemplates& templates) {
-  GrainJob job = files_of(options);
+  GrainJob job{options.folder, options.shard, options.format};
   job.call = json_document({{"format", "wscvt-templates"},
                             {"made_by", made_by()},
                             {"meshes", options.format},
@@ -227,7 +218,7 @@ std::string mercury_psd_csv(std::vector<double> diameters) {
 
 void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample) {
   const auto count = static_cast<std::size_t>(job.options.count);
-  require_scans_kept(files_of(job), *grains_of(count, {}), sample);
+  require_scans_kept(GrainJob{job.folder, job.shard, job.format}, *grains_of(count, {}), sample);
 }
 
 MadeTemplates make_templates(
