@@ -51,6 +51,14 @@ class Scans {
   std::set<fs::path> places_;
 };
 
+/// Returns the files of a grain in a folder of the job, its own first.
+std::vector<std::string> files_of(const GrainJob& job, const JobFolder& folder,
+                                  const std::string& grain) {
+  std::vector<std::string> files = {folder.file_of(grain)};
+  for (const JobFiles& more : job.more_files) files.push_back(folder.file_of(grain, more));
+  return files;
+}
+
 /// Refuses grains whose files would replace each other, or a scan.
 void check_files(const JobFolder& folder, const GrainJob& job,
                  const std::vector<std::string>& grains) {
@@ -62,12 +70,10 @@ void check_files(const JobFolder& folder, const GrainJob& job,
       refuse("\"" + *other->second + "\" and \"" + grain + "\" would both be written to \"" +
              other->first + "\". Use two batches, or rename one of them.");
     }
-    const auto is_scan = [&](const std::string& file) {
-      return same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
-    };
-    if (is_scan(other->first)) refuse_replacing(grain, "");
-    for (const JobFiles& files : job.more_files) {
-      if (is_scan(folder.file_of(grain, files))) refuse_replacing(grain, "");
+    for (const std::string& file : files_of(job, folder, grain)) {
+      const bool is_scan =
+          same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
+      if (is_scan) refuse_replacing(grain, "");
     }
     if (!job.beside) continue;
     for (const std::string& file : job.beside(other->first)) {
@@ -306,16 +312,13 @@ class JobTables {
       const auto is_lost = [&](const std::string& file) {
         return scans->is_old(k, file) || is_cut(file);
       };
-      const bool is_old =
-          tables_.front()->is_failed(k)
-              ? is_old_failure[k]
-              : std::any_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
-                  return is_lost(folder.file_of(grains[k])) ||
-                         std::any_of(job.more_files.begin(), job.more_files.end(),
-                                     [&](const JobFiles& files) {
-                                       return is_lost(folder.file_of(grains[k], files));
-                                     });
-                });
+      const auto has_lost = [&](const JobFolder& folder) {
+        const std::vector<std::string> files = files_of(job, folder, grains[k]);
+        return std::any_of(files.begin(), files.end(), is_lost);
+      };
+      const bool is_old = tables_.front()->is_failed(k)
+                              ? is_old_failure[k]
+                              : std::any_of(folders.begin(), folders.end(), has_lost);
       if (is_old) rows_ = k;
     }
     for (const auto& table : tables_) table->keep(rows_);
@@ -341,10 +344,7 @@ void remove_parts(const GrainJob& job, const std::vector<JobFolder>& folders,
   remove_partial_file((fs::path(job.folder) / "labels.csv").string());
   for (const JobFolder& folder : folders) {
     for (std::size_t k = first; k < grains.size(); ++k) {
-      remove_partial_file(folder.file_of(grains[k]));
-      for (const JobFiles& files : job.more_files) {
-        remove_partial_file(folder.file_of(grains[k], files));
-      }
+      for (const std::string& file : files_of(job, folder, grains[k])) remove_partial_file(file);
     }
     for (const char* ending : {".json", ".html"}) {
       remove_partial_file(folder.file("summary", ending));
@@ -391,9 +391,7 @@ void require_scans_kept(const GrainJob& job, const GrainSource& grains,
   for (const JobFolder& folder : folders_of(job)) {
     for (std::size_t k = 0; k < grains.size(); ++k) {
       const std::string grain = grains.name(k);
-      std::vector<std::string> made = {folder.file_of(grain)};
-      for (const JobFiles& files : job.more_files) made.push_back(folder.file_of(grain, files));
-      for (const std::string& file : made) {
+      for (const std::string& file : files_of(job, folder, grain)) {
         if (kept.has(file)) refuse_replacing(grain, " \"" + file + "\"");
       }
     }
