@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/axis_order.h"
-
 #include <algorithm>
 
 #include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_rows.h"
 
 namespace wscvt {
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "toolbox/volume/axis_order.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #ifdef WSCVT_HAS_HDF5

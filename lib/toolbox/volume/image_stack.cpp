@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/image_stack.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <limits>

@@ -13,7 +13,6 @@
 #include <string_view>
 #include <utility>
 
-#include "toolbox/volume/axis_order.h"
 #include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "toolbox/volume/image_stack.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/error.h"

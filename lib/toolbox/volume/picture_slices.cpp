@@ -14,7 +14,6 @@
 #include <new>
 
 #include "toolbox/volume/byte_source.h"
-#include "toolbox/volume/image_stack.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/mesh_files/text_fields.h"

@@ -3,7 +3,6 @@
 #include <memory>
 #include <utility>
 
-#include "toolbox/volume/image_stack.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #ifdef WSCVT_HAS_TIFF

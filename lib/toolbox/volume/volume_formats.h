@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
@@ -45,8 +49,76 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
 /// - "file": the raw file beside it; the default is this file's name with the ending .raw.
 std::unique_ptr<LabelVolume> open_raw(const std::string& path, const VolumeChoice& choice);
 
-/// Opens a folder of slices; see image_stack.h.
+/// Opens a folder of slices, each an image: TIFF, PNG or BMP.
 std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeChoice& choice);
+
+/// Returns whether a file is a hidden one from a system: "._s03.tif", "Thumbs.db", ".DS_Store".
+bool is_foreign_file(const std::string& name);
+
+/// Returns whether a name is a slice's, by its ending.
+bool is_slice(const std::string& name);
+
+/// The slices of a volume.
+struct SliceFiles {
+  std::string folder;              ///< or the file, if it contains all slices
+  std::vector<std::string> paths;  ///< in the order of the numbers in their names
+};
+
+/// Opens slices that are files of one page, or the pages of the only file. Throws as open_volume
+/// does, and Error(InputOutput) naming the first slice whose size or type differs from the previous
+/// ones.
+std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice& choice);
+
+/// A slice, unpacked.
+struct SliceImage {
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::string numbers;        ///< of each voxel, for messages: "3 x 8 bits"
+  std::size_t channels = 1;   ///< numbers of each voxel
+  std::size_t bytes = 1;      ///< of each number, the most significant first
+  std::vector<char> content;  ///< rows from above
+};
+
+/// Reads a file; without `content` only its form. Throws Error(InputOutput), naming it.
+using ReadSlice = SliceImage (*)(const std::string& path, bool with_content);
+
+/// Opens slices that are files of one image each, in the same way. Without a chosen channel, three
+/// equal colours are one, and transparency is no channel of labels.
+std::unique_ptr<LabelVolume> open_images(const SliceFiles& slices, const VolumeChoice& choice,
+                                         ReadSlice read);
+
+/// Opens slices that are PNG files, in the same way.
+std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice& choice);
+
+/// Opens slices that are BMP files, of 8 bits or of three equal colours, in the same way.
+std::unique_ptr<LabelVolume> open_bmp_slices(const SliceFiles& slices, const VolumeChoice& choice);
+
+/// Dimensions of an array whose file does not say their meaning, in the file's order.
+struct ArrayShape {
+  std::vector<std::int64_t> counts;  ///< the slowest first, as in NumPy and HDF5
+  /// For each dimension, 0, 1, 2 if it is x, y, z; -1: frames; -2: channels. Empty: by convention,
+  /// see ShapedVolume.
+  std::vector<int> roles = {};
+  Vector3 voxel_size = Vector3::Zero();  ///< along x, y, z; not above 0: unknown
+  std::string unit;
+  std::string size_source = {};        ///< see VolumeGeometry
+  std::optional<Vector3> corner = {};  ///< of the first voxel's cell
+};
+
+/// A volume's geometry, and the selected part of the array, by the convention of NumPy,
+/// scikit-image, napari and Fiji. Dimensions of size one are ignored. The last three of the others
+/// are z, y and x; dimensions before them are frames. A last dimension that is shorter than half of
+/// each of the three before it, and at most 8, has channels, as colours do.
+struct ShapedVolume {
+  VolumeGeometry geometry;
+  std::vector<VolumeAxis> axes;  ///< the fastest first
+  std::vector<BlockPick> picks;
+};
+
+/// Returns the geometry and the selection. Throws Error(InputOutput), naming the file `path`, for
+/// shapes that are no volume.
+ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
+                             const std::string& path);
 
 /// Throws Error(InputOutput), naming the file, if an array was chosen in a format with only one.
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path);
