@@ -16,10 +16,10 @@
 #include "support/expect_error.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
-#include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/label_grains.h"
 #include "toolbox/volume/segmentation_page.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptors.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/grey_threshold.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "toolbox/volume/segmentation_steps.h"
 
 namespace wscvt {
 

@@ -6,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/segmentation_steps.h"
 #include "toolbox/volume/volume_parts.h"

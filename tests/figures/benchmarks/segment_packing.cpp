@@ -12,10 +12,10 @@
 #include <string>
 
 #include "grains/packing.h"
-#include "toolbox/volume/grey_threshold.h"
 #include "toolbox/volume/itk_filters.h"
 #include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/segmentation_page.h"
+#include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/output_file.h"
 
 namespace {
