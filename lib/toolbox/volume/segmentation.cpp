@@ -37,25 +37,6 @@ class HeldVolume : public LabelVolume {
   std::size_t next_ = 0;
 };
 
-/// Maps the labels 0, 1, 2, ... of a volume to other numbers.
-class RenumberedVolume : public LabelVolume {
- public:
-  RenumberedVolume(std::unique_ptr<LabelVolume> volume, std::vector<Label> numbers)
-      : LabelVolume(volume->geometry()), volume_(std::move(volume)), numbers_(std::move(numbers)) {}
-
-  const std::vector<Label>& next_row() override {
-    row_ = volume_->next_row();
-    for (Label& label : row_) label = numbers_[label];
-    return row_;
-  }
-  void rewind() override { volume_->rewind(); }
-
- private:
-  std::unique_ptr<LabelVolume> volume_;
-  std::vector<Label> numbers_;
-  std::vector<Label> row_;
-};
-
 std::size_t voxels_of(const VoxelCounts& counts) {
   return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
          static_cast<std::size_t>(counts[2]);
@@ -518,7 +499,7 @@ std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
 /// Numbers the grains from 1, and gives one more number to all that are too small or cut.
 void drop_small(Segmentation& result, std::int64_t smallest, const std::vector<char>& cut,
                 const Execution& execution) {
-  const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution);
+  const std::vector<LabelExtent> all = label_census(*result.labels, 0, execution.part(0.0, 0.5));
   std::vector<Label> numbers(all.size() + 1, 0);  // parts are numbered without gaps
   for (const LabelExtent& part : all) {
     result.material += part.voxels;
@@ -543,7 +524,13 @@ void drop_small(Segmentation& result, std::int64_t smallest, const std::vector<c
   for (std::size_t part = 1; part < numbers.size(); ++part) {
     if (numbers[part] == 0) numbers[part] = static_cast<Label>(result.grains.size() + 1);
   }
-  result.labels = std::make_unique<RenumberedVolume>(std::move(result.labels), std::move(numbers));
+  std::vector<Label> labels;
+  labels.reserve(static_cast<std::size_t>(result.voxels));
+  for_each_row(*result.labels, execution.part(0.5, 1.0), reading_stage,
+               [&](const std::vector<Label>& row) {
+                 for (const Label part : row) labels.push_back(numbers[part]);
+               });
+  result.labels = std::make_unique<HeldVolume>(result.labels->geometry(), std::move(labels));
 }
 
 /// Returns the result of `work`. If memory is insufficient, throws MachineRefused with the amount
