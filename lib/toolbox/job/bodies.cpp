@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -220,20 +221,15 @@ class IslandFinder {
     IndexedMesh part = extractor_.extract(faces);
     constexpr std::size_t fewest_faces = 4;  // of a closed surface
     // Edges would tell bodies that share a vertex apart; the next step does.
-    std::vector<std::int32_t> root(part.points.size());
-    std::iota(root.begin(), root.end(), 0);
-    const auto find = [&](std::int32_t v) {
-      while (root[index(v)] != v) v = root[index(v)] = root[index(root[index(v)])];
-      return v;
-    };
+    boost::disjoint_sets_with_storage<> linked(part.points.size());
     for (const Triangle& t : part.triangles) {
-      const std::int32_t low = std::min({find(t[0]), find(t[1]), find(t[2])});
-      for (const std::int32_t v : t) root[index(find(v))] = low;
+      linked.union_set(index(t[0]), index(t[1]));
+      linked.union_set(index(t[0]), index(t[2]));
     }
     std::vector<std::int32_t> number(part.points.size(), -1);
     std::vector<FaceList> parts;
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      std::int32_t& known = number[index(find(part.triangles[k][0]))];
+      std::int32_t& known = number[linked.find_set(index(part.triangles[k][0]))];
       if (known < 0) {
         known = static_cast<std::int32_t>(parts.size());
         parts.emplace_back();
