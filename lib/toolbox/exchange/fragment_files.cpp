@@ -84,15 +84,10 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
 
 double volume_of_fragments(const std::string& path) {
   std::ifstream table(path, std::ios::binary);
-  CsvReader reader(table);
-  std::vector<std::string> fields;
-  if (!reader.next(fields)) return 0.0;
-  const auto column =
-      static_cast<std::size_t>(std::find(fields.begin(), fields.end(), "volume") - fields.begin());
   double sum = 0.0;
-  while (reader.next(fields) && column < fields.size()) {
+  for (const std::string& field : column_of(table, "volume")) {
     double volume = 0.0;
-    std::from_chars(fields[column].data(), fields[column].data() + fields[column].size(), volume);
+    std::from_chars(field.data(), field.data() + field.size(), volume);
     sum += volume;
   }
   return sum;

@@ -292,7 +292,7 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   std::vector<std::string> lines = {census_line(census_states(census), options.table)};
   std::istringstream made(census);
   for (std::string& line :
-       older.remove_but(files_named_in(made), grains.size() > 0 ? grains.file(0) : "")) {
+       older.remove_but(column_of(made, "file"), grains.size() > 0 ? grains.file(0) : "")) {
     lines.push_back(std::move(line));
   }
   if (options.describe) append_voxel_lines(folder, lines);

@@ -138,7 +138,7 @@ void require_no_other_results(const std::string& folder, const std::string& own,
     if (table == own) continue;
     std::ifstream file(fs::path(folder) / (table + ".csv"), std::ios::binary);
     if (!file) continue;
-    const std::vector<std::string> files = files_named_in(file);
+    const std::vector<std::string> files = column_of(file, "file");
     const bool is_replaced = made.count(table + ".csv") > 0 ||
                              std::any_of(files.begin(), files.end(), [&](const std::string& name) {
                                return made.count(name) > 0;
@@ -157,23 +157,11 @@ void require_own_table(const std::string& folder, const std::string& table,
          mention("output") + ".");
 }
 
-std::vector<std::string> files_named_in(std::istream& table) {
-  CsvReader reader(table);
-  std::vector<std::string> fields;
-  if (!reader.next(fields)) return {};
-  const auto found = std::find(fields.begin(), fields.end(), "file");
-  if (found == fields.end()) return {};
-  const auto column = static_cast<std::size_t>(found - fields.begin());
-  std::vector<std::string> names;
-  while (reader.next(fields)) names.push_back(column < fields.size() ? fields[column] : "");
-  return names;
-}
-
 OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& tables)
     : folder_(std::move(folder)) {
   for (const std::string& table : tables) {
     std::ifstream file(folder_ / table, std::ios::binary);
-    for (std::string& name : files_named_in(file)) {
+    for (std::string& name : column_of(file, "file")) {
       // A path elsewhere is not of these tables.
       if (!name.empty() && fs::path(name).filename() == name) files_.push_back(std::move(name));
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <istream>
 #include <set>
 #include <string>
 #include <vector>
@@ -89,9 +88,5 @@ class OlderFiles {
   std::filesystem::path folder_;
   std::vector<std::string> files_;
 };
-
-/// Returns the names in the column "file" of a CSV table, "" where there is none; nothing if the
-/// table cannot be read or has no such column.
-std::vector<std::string> files_named_in(std::istream& table);
 
 }  // namespace wscvt

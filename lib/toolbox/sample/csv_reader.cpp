@@ -95,4 +95,16 @@ void CsvReader::take(const std::string& record, std::vector<std::string>& fields
   record_.swap(fields);
 }
 
+std::vector<std::string> column_of(std::istream& table, const std::string& name) {
+  CsvReader reader(table);
+  std::vector<std::string> fields;
+  if (!reader.next(fields)) return {};
+  const auto found = std::find(fields.begin(), fields.end(), name);
+  if (found == fields.end()) return {};
+  const auto column = static_cast<std::size_t>(found - fields.begin());
+  std::vector<std::string> values;
+  while (reader.next(fields)) values.push_back(column < fields.size() ? fields[column] : "");
+  return values;
+}
+
 }  // namespace wscvt

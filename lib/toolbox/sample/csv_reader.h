@@ -45,4 +45,8 @@ class CsvReader {
   std::string rest_;  ///< of a last record without its line break
 };
 
+/// Returns a column of a table with a heading, "" where a record has no such field; nothing if the
+/// table cannot be read or has no such column.
+std::vector<std::string> column_of(std::istream& table, const std::string& name);
+
 }  // namespace wscvt
