@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/made_volume.h"
 #include "toolbox/volume/open_volume.h"
 
@@ -16,15 +16,12 @@ namespace wscvt::test {
 
 /// A folder for the files of a test, and a volume without symmetry in them: three side lengths,
 /// every label another but for some, the largest at the last voxel.
-class VolumeFolder : public testing::Test {
+class VolumeFolder : public FileFolder {
  protected:
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_volume_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
+    FileFolder::SetUp();
     make({7, 5, 3});
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   void make(const std::array<int, 3>& counts) {
     made_ = MadeVolume(counts);
@@ -34,7 +31,13 @@ class VolumeFolder : public testing::Test {
     made_.labels.back() = 127;
   }
 
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  /// The labels plus a number.
+  std::vector<Label> labels(std::uint32_t more) const {
+    std::vector<Label> all = made_.labels;
+    for (Label& label : all) label += more;
+    return all;
+  }
+
   void write(const std::string& name, const std::string& bytes) const {
     write_bytes(path(name), bytes);
   }
@@ -80,17 +83,17 @@ class VolumeFolder : public testing::Test {
     }
   }
 
-  /// The file without its last bytes is refused, however many they are.
-  void expect_cut_is_refused(const std::string& name, std::size_t least_left) const {
+  /// The file without its last bytes is refused, however many they are, by itself or by its header.
+  void expect_cut_is_refused(const std::string& name, std::size_t least_left,
+                             const std::string& header = "") const {
     const std::uintmax_t size = std::filesystem::file_size(path(name));
     for (std::uintmax_t left = size - 1; left >= least_left; left -= 1 + left / 9) {
       SCOPED_TRACE(name + " of " + std::to_string(left) + " bytes");
       std::filesystem::resize_file(path(name), left);
-      expect_refused(name, {});
+      expect_refused(header.empty() ? name : header, {});
     }
   }
 
-  std::filesystem::path folder_;
   MadeVolume made_{{7, 5, 3}};
 };
 

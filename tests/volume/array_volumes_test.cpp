@@ -24,11 +24,6 @@ using test::MadeVolume;
 
 class ArrayVolumes : public test::VolumeFolder {
  protected:
-  std::vector<Label> labels(std::uint32_t more) const {
-    std::vector<Label> all = made_.labels;
-    for (Label& label : all) label += more;
-    return all;
-  }
   static std::string npy(const std::string& type, const std::string& order,
                          const std::string& shape, const std::string& voxels, int version = 1) {
     std::string head =

@@ -74,11 +74,6 @@ class HeaderVolumes : public test::VolumeFolder {
     }
     return all;
   }
-  std::vector<Label> labels(std::uint32_t more) const {
-    std::vector<Label> all = made_.labels;
-    for (Label& label : all) label += more;
-    return all;
-  }
 };
 
 TEST_F(HeaderVolumes, ReadsNrrdInManyFiles) {

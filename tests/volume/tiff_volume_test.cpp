@@ -41,11 +41,6 @@ class TiffVolume : public test::VolumeFolder {
     for (int z = 0; z < made_.counts[2]; ++z) all.push_back(page(z, more));
     return all;
   }
-  std::vector<Label> labels(std::uint32_t more) const {
-    std::vector<Label> all = made_.labels;
-    for (Label& label : all) label += more;
-    return all;
-  }
 
   /// Bytes of one type, cut into pages.
   template <class Value>
