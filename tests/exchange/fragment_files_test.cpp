@@ -107,8 +107,7 @@ TEST_F(FragmentFile, HasTheMassOfATurnedBox) {
   const MassProperties mass = mass_properties(describe_shape(box, Execution(1)));
   for (const char* name : {"box.shp", "box.urdf"}) write_fragment(path(name), box, mass, 2650.0);
   const auto after = [&](const char* name, const std::string& word) {
-    std::ifstream file(path(name));
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::string text = content(name);
     EXPECT_NE(text.find(word), std::string::npos) << text;
     std::istringstream numbers(text.substr(text.find(word) + word.size()));
     return std::vector<double>{std::istream_iterator<double>(numbers), {}};

@@ -42,8 +42,7 @@ class PartFiles : public test::FileFolder {
   }
   std::string written(const std::string& name) {
     write_parts(path(name), {box, other}, mass, density);
-    std::ifstream file(path(name));
-    return {std::istreambuf_iterator<char>(file), {}};
+    return content(name);
   }
 
   const double volume = 1.5 * 2.5 * 4.0;
@@ -70,8 +69,7 @@ TEST_F(PartFiles, OfUrdfHaveTheMassAndInertiaOfATurnedBox) {
   EXPECT_NEAR(attribute_number(text, "iyy"), density * inertia(1, 1), rounding);
   EXPECT_NEAR(attribute_number(text, "iyz"), density * inertia(1, 2), rounding);
   EXPECT_NEAR(attribute_number(text, "izz"), density * inertia(2, 2), rounding);
-  std::ifstream part(path("grain_2.obj"));
-  const std::string obj{std::istreambuf_iterator<char>(part), {}};
+  const std::string obj = content("grain_2.obj");
   EXPECT_EQ(obj.rfind("g part_2\nv ", 0), 0U);
   EXPECT_NE(obj.find("\nf 1 "), std::string::npos) << "each file numbers its own vertices";
 }

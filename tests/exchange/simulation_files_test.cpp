@@ -12,6 +12,7 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
 #include "toolbox/exchange/distance_grid.h"
@@ -22,7 +23,7 @@
 namespace wscvt {
 namespace {
 
-class SimulationFiles : public testing::Test {
+class SimulationFiles : public test::FileFolder {
  protected:
   static void SetUpTestSuite() {
     scan = new IndexedMesh(test::transformed(test::scaled(test::lumpy(4), {1.0, 1.4, 0.7}),
@@ -37,20 +38,10 @@ class SimulationFiles : public testing::Test {
     delete result;
   }
   void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder = pattern;
+    FileFolder::SetUp();
     options.frame.frame = Frame::Principal;
     options.frame.size = 0.1;
     options.grid.spacing = 0.01;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
-  std::string path(const std::string& name) const { return (folder / name).string(); }
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder / name, std::ios::binary).rdbuf();
-    return text.str();
   }
 
   /// What a remesh of a formula gives, or one that was not asked for the scan.
@@ -63,7 +54,6 @@ class SimulationFiles : public testing::Test {
   static IndexedMesh* scan;
   static RemeshResult* result;
   SimulationOptions options;
-  std::filesystem::path folder;
 };
 
 IndexedMesh* SimulationFiles::scan = nullptr;
@@ -198,7 +188,7 @@ TEST_F(SimulationFiles, RefuseWhatTheyCannotWrite) {
   EXPECT_ERROR(write_nodes(path("nodes.shp"), *result, options), InvalidInput);
   options.grid.spacing = -1.0;
   EXPECT_ERROR(check_simulation_options(options), InvalidInput);
-  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
 }  // namespace

@@ -83,11 +83,6 @@ class Job : public test::FileFolder {
     };
     return job;
   }
-
-  std::string content(const std::string& name) const {
-    std::ifstream file(folder_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
 };
 
 TEST_F(Job, HasTheSameFilesAtAnyNumberOfThreadsInTheOrderOfTheGrains) {

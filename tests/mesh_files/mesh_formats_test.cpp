@@ -28,11 +28,6 @@ using boost::endian::order;
 
 class MeshFormats : public test::FileFolder {
  protected:
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return text.str();
-  }
   /// Expects a file to be refused with a sentence that names it and has `part`.
   void expect_refusal(const std::string& name, const std::string& text, const std::string& part) {
     const std::string where = file(name, text);

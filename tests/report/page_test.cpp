@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -137,26 +138,13 @@ TEST(Reports, SayWhatTheyAreOfAndWhenTheyWereMade) {
   EXPECT_EQ(origin_sentence({}), "Made by " + made_by() + ".");
 }
 
-class ReportFiles : public testing::Test {
+class ReportFiles : public test::FileFolder {
  protected:
-  void SetUp() override {
-    std::string pattern = (std::filesystem::temp_directory_path() / "wscvt_XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name = "table.csv") const {
-    return (folder_ / name).string();
-  }
+  std::string path(const std::string& name = "table.csv") const { return FileFolder::path(name); }
   std::string content(const std::string& name = "table.csv") const {
-    std::ostringstream text;
-    text << std::ifstream(path(name), std::ios::binary).rdbuf();
-    return text.str();
+    return FileFolder::content(name);
   }
-  void write(const std::string& text) const { std::ofstream(path(), std::ios::binary) << text; }
-
- private:
-  std::filesystem::path folder_;
+  void write(const std::string& text) const { file("table.csv", text); }
 };
 
 TEST_F(ReportFiles, TableGrowsByARowUnderItsHeader) {

@@ -139,8 +139,7 @@ class PartsTable : public test::FileFolder {};
 TEST_F(PartsTable, TakesARowPerReport) {
   write_report(path("parts.csv"), three_boxes(0.05), {"one.ply", ""}, Execution(1));
   write_report(path("parts.csv"), three_boxes(0.02), {"two.ply", ""}, Execution(1));
-  std::ifstream table(path("parts.csv"));
-  const auto records = test::csv_records({std::istreambuf_iterator<char>(table), {}});
+  const auto records = test::csv_records(content("parts.csv"));
   ASSERT_EQ(records.size(), 3U);
   EXPECT_EQ(records[1].size(), records[0].size());
   EXPECT_NE(records[1], records[2]);

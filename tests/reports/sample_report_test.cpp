@@ -375,8 +375,7 @@ TEST_F(SampleReportFile, HasTheFormOfItsName) {
                                    {"a.json", sample_json(report)},
                                    {"a.csv", sample_csv(report)}}) {
     write_sample_report(path(name), report, Execution(1));
-    std::ifstream file(path(name), std::ios::binary);
-    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), text) << name;
+    EXPECT_EQ(content(name), text) << name;
   }
 }
 

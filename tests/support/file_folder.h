@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <locale>
 #include <string>
 
@@ -28,6 +29,12 @@ class FileFolder : public ::testing::Test {
   std::string file(const std::string& name, const std::string& content) const {
     std::ofstream(path(name), std::ios::binary) << content;
     return path(name);
+  }
+
+  /// Returns what a file holds; empty if it is not there.
+  std::string content(const std::string& name) const {
+    std::ifstream stream(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
   }
 
   std::filesystem::path folder_;

@@ -38,10 +38,6 @@ class Tetrahedra : public test::FileFolder {
     }
     FileFolder::SetUp();
   }
-  std::string content(const std::string& name) const {
-    std::ifstream file(path(name));
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
 };
 
 double volume(const TetrahedralMesh& mesh, const Tetrahedron& t) {
