@@ -50,24 +50,21 @@ class LineCounter {
     LastVoxel along_x;
     LastVoxel* const slice =
         along_z_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(counts_[0]);
-    visit_stretches(
-        row, y, z,
-        [&](Label label, std::int32_t, std::int32_t, std::int32_t begin, std::int32_t end) {
-          if (label == background_) return true;
-          const std::uint32_t grain = place_of(label) + 1;
-          add_voxels(labels_[grain - 1], begin, end, y, z);
-          if (along_x.grain != 0) add(0, along_x, grain, {begin, y, z});
-          along_x = {grain, end - 1};
-          for (std::int32_t x = begin; x < end; ++x) {
-            LastVoxel& before_y = along_y_[static_cast<std::size_t>(x)];
-            LastVoxel& before_z = slice[x];
-            if (before_y.grain != 0) add(1, before_y, grain, {x, y, z});
-            if (before_z.grain != 0) add(2, before_z, grain, {x, y, z});
-            before_y = {grain, y};
-            before_z = {grain, z};
-          }
-          return true;
-        });
+    visit_stretches(row, [&](Label label, std::int32_t begin, std::int32_t end) {
+      if (label == background_) return;
+      const std::uint32_t grain = place_of(label) + 1;
+      add_voxels(labels_[grain - 1], begin, end, y, z);
+      if (along_x.grain != 0) add(0, along_x, grain, {begin, y, z});
+      along_x = {grain, end - 1};
+      for (std::int32_t x = begin; x < end; ++x) {
+        LastVoxel& before_y = along_y_[static_cast<std::size_t>(x)];
+        LastVoxel& before_z = slice[x];
+        if (before_y.grain != 0) add(1, before_y, grain, {x, y, z});
+        if (before_z.grain != 0) add(2, before_z, grain, {x, y, z});
+        before_y = {grain, y};
+        before_z = {grain, z};
+      }
+    });
   }
 
   ContactLines result() {

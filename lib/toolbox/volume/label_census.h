@@ -57,22 +57,6 @@ class GreyCheck {
   Neighbours along_y_;
 };
 
-/// Calls visit(label, y, z, begin, end) for every stretch of one label along x, in the order of the
-/// file; stops if visit returns false.
-template <class Visit>
-bool visit_stretches(const std::vector<Label>& row, std::int32_t y, std::int32_t z,
-                     const Visit& visit) {
-  const auto count = static_cast<std::int32_t>(row.size());
-  for (std::int32_t begin = 0; begin < count;) {
-    const Label label = row[static_cast<std::size_t>(begin)];
-    std::int32_t end = begin + 1;
-    while (end < count && row[static_cast<std::size_t>(end)] == label) ++end;
-    if (!visit(label, y, z, begin, end)) return false;
-    begin = end;
-  }
-  return true;
-}
-
 /// Reads the volume once from its beginning, and returns its labels without the background, in
 /// their order, with the number of pieces of each. Needs memory for the labels and the stretches of
 /// two slices. Throws Error: InvalidInput for more than `most_labels` and for grey values, see

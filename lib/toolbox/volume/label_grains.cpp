@@ -121,17 +121,14 @@ void LabelGrains::begin_again() {
 
 void LabelGrains::read_to(std::int32_t slice, const Execution& execution) {
   if (is_behind_) begin_again();
-  const auto take_stretch = [&](Label found, std::int32_t y, std::int32_t z, std::int32_t begin,
-                                std::int32_t end) {
-    const auto place = at_work_.find(found);
-    if (place != at_work_.end()) place->second.push_back({z, y, begin, end});
-    return true;
-  };
   is_behind_ = true;  // in case the following code throws
   for (; next_slice_ < slice; ++next_slice_) {
     execution.report(0.0, "Reading the volume");
     for (std::int32_t y = 0; y < geometry().counts[1]; ++y) {
-      visit_stretches(volume_->next_row(), y, next_slice_, take_stretch);
+      visit_stretches(volume_->next_row(), [&](Label found, std::int32_t begin, std::int32_t end) {
+        const auto place = at_work_.find(found);
+        if (place != at_work_.end()) place->second.push_back({next_slice_, y, begin, end});
+      });
     }
   }
   is_behind_ = false;

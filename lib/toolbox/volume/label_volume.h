@@ -141,6 +141,19 @@ void for_each_row(LabelVolume& volume, const Execution& execution, const char* s
   }
 }
 
+/// Calls visit(label, begin, end) for every stretch of one label along a row.
+template <class Visit>
+void visit_stretches(const std::vector<Label>& row, const Visit& visit) {
+  const auto count = static_cast<std::int32_t>(row.size());
+  for (std::int32_t begin = 0; begin < count;) {
+    const Label label = row[static_cast<std::size_t>(begin)];
+    std::int32_t end = begin + 1;
+    while (end < count && row[static_cast<std::size_t>(end)] == label) ++end;
+    visit(label, begin, end);
+    begin = end;
+  }
+}
+
 /// Thrown for a whole number above the largest label.
 class LargeNumber : public Error {
  public:

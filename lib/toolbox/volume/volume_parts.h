@@ -53,29 +53,23 @@ class PartTracker {
     Neighbours under(below_[next_]);
     std::vector<Stretch>& stretches = here_[next_++];
     stretches.clear();
-    const auto count = static_cast<std::int32_t>(row.size());
-    for (std::int32_t begin = 0; begin < count;) {
-      const Label label = row[static_cast<std::size_t>(begin)];
-      std::int32_t end = begin + 1;
-      while (end < count && row[static_cast<std::size_t>(end)] == label) ++end;
-      if (label != background_) {
-        Stretch stretch = {begin, end, label, 0};
-        bool has_part = false;
-        const auto take = [&](std::uint32_t part) {
-          if (!has_part) {
-            stretch.part = part;
-            has_part = true;
-          } else if (part != stretch.part) {
-            link(stretch.part, part);
-          }
-        };
-        above.visit(stretch, take);
-        under.visit(stretch, take);
-        if (!has_part) stretch.part = begin_part(label);
-        stretches.push_back(stretch);
-      }
-      begin = end;
-    }
+    visit_stretches(row, [&](Label label, std::int32_t begin, std::int32_t end) {
+      if (label == background_) return;
+      Stretch stretch = {begin, end, label, 0};
+      bool has_part = false;
+      const auto take = [&](std::uint32_t part) {
+        if (!has_part) {
+          stretch.part = part;
+          has_part = true;
+        } else if (part != stretch.part) {
+          link(stretch.part, part);
+        }
+      };
+      above.visit(stretch, take);
+      under.visit(stretch, take);
+      if (!has_part) stretch.part = begin_part(label);
+      stretches.push_back(stretch);
+    });
     return stretches;
   }
 
