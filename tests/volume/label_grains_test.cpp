@@ -16,7 +16,6 @@
 #include "support/expect_error.h"
 #include "support/made_volume.h"
 #include "support/seeds.h"
-#include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
 

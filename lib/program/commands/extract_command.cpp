@@ -22,7 +22,6 @@
 #include "toolbox/job/extract_job.h"
 #include "toolbox/job/job_folder.h"
 #include "toolbox/job/label_source.h"
-#include "toolbox/volume/label_table.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"

@@ -17,7 +17,6 @@
 #include "toolbox/resolution/resolution.h"
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/grain_table.h"
-#include "toolbox/volume/label_table.h"
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"

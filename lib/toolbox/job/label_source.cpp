@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/job/label_source.h"
 
-#include "toolbox/volume/label_table.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {

@@ -12,7 +12,7 @@
 namespace wscvt {
 
 /// The grains of a volume of labels, with the names PATH/LABEL. Its census is the table of the
-/// labels (label_table.h).
+/// labels (label_row).
 class LabelSource : public GrainSource {
  public:
   LabelSource(std::string path, std::unique_ptr<LabelGrains> grains)

@@ -16,7 +16,6 @@
 #include "toolbox/report/sample_summary.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
-#include "toolbox/volume/label_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"

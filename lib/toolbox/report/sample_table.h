@@ -31,7 +31,7 @@ std::string failed_row(const std::string& grain, const std::string& error,
                        const std::string& report);
 
 /// Returns the message of a failed grain in its record; empty if it did not fail. Also of a table
-/// of labels (label_table.h), whose fourth column is the state of the label and whose fifth is the
+/// of labels (label_grains.h), whose fourth column is the state of the label and whose fifth is the
 /// error.
 std::string failure_in(const std::string& record);
 

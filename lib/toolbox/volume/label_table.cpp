@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/label_table.h"
-
 #include <utility>
 
+#include "toolbox/volume/label_grains.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
