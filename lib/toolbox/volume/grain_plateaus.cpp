@@ -52,12 +52,12 @@ struct Depths {
   double of(std::size_t k) const { return basins.step * basins.distances[k] / voxel; }
 };
 
-/// Calls take(label, shell, begin, end) for each basin with the grey values, in ascending order, of
-/// a shell below its surface; depths in voxels. Of small basins the shell begins at a part of their
-/// radius.
-template <class Take>
-void for_each_shell(const Depths& depths, double begin_of_shell, double thickness,
-                    const Take& take) {
+/// Returns the grey value of each basin, that of a shell below its surface.
+std::vector<double> plateaus_of(const Depths& depths, const Phases& phases) {
+  // Below the blur. A bright grain's surface is about a voxel below the mask's. Of small basins the
+  // shell begins at a part of their radius.
+  constexpr double begin_of_shell = 2.5;
+  constexpr double thickness = 2.5;
   constexpr double of_radius = 0.75;
   const std::vector<std::uint32_t>& labels = depths.basins.labels;
   std::vector<double> radii(*std::max_element(labels.begin(), labels.end()) + std::size_t{1}, 0.0);
@@ -73,26 +73,14 @@ void for_each_shell(const Depths& depths, double begin_of_shell, double thicknes
     }
   }
   std::sort(shell.begin(), shell.end());
+  std::vector<double> plateaus(radii.size(), phases.materials.front());
   for (std::size_t begin = 0; begin < shell.size();) {
+    const std::uint32_t label = shell[begin].first;
     std::size_t end = begin;
-    while (end < shell.size() && shell[end].first == shell[begin].first) ++end;
-    take(shell[begin].first, shell, begin, end);
+    while (end < shell.size() && shell[end].first == label) ++end;
+    plateaus[label] = plateau_of(shell, begin, end, phases);
     begin = end;
   }
-}
-
-/// Returns the grey value of each basin.
-std::vector<double> plateaus_of(const Depths& depths, const Phases& phases) {
-  const std::vector<std::uint32_t>& labels = depths.basins.labels;
-  std::vector<double> plateaus(*std::max_element(labels.begin(), labels.end()) + std::size_t{1},
-                               phases.materials.front());
-  // Below the blur. A bright grain's surface is about a voxel below the mask's.
-  constexpr double begin_of_shell = 2.5;
-  constexpr double thickness = 2.5;
-  for_each_shell(depths, begin_of_shell, thickness,
-                 [&](std::uint32_t label, const Greys& shell, std::size_t begin, std::size_t end) {
-                   plateaus[label] = plateau_of(shell, begin, end, phases);
-                 });
   return plateaus;
 }
 
