@@ -42,22 +42,21 @@ class VolumeFolder : public FileFolder {
     write_bytes(path(name), bytes);
   }
 
+  static std::vector<Label> all_of(LabelVolume& volume) {
+    std::vector<Label> labels;
+    for_each_row(volume, Execution(1), "", [&](const std::vector<Label>& row) {
+      labels.insert(labels.end(), row.begin(), row.end());
+    });
+    return labels;
+  }
+
   /// All labels, read twice, after the file was left within a slice.
   std::vector<Label> labels_of(const std::string& name, const VolumeChoice& choice = {}) const {
     const std::unique_ptr<LabelVolume> volume = open_volume(path(name), choice);
-    const VoxelCounts& counts = volume->geometry().counts;
     volume->rewind();
-    for (int row = 0; row <= counts[1]; ++row) volume->next_row();
-    std::vector<Label> first;
-    std::vector<Label> second;
-    for (std::vector<Label>* labels : {&first, &second}) {
-      volume->rewind();
-      for (int row = 0; row < counts[1] * counts[2]; ++row) {
-        const std::vector<Label>& next = volume->next_row();
-        labels->insert(labels->end(), next.begin(), next.end());
-      }
-    }
-    EXPECT_EQ(first, second) << name;
+    for (int row = 0; row <= volume->geometry().counts[1]; ++row) volume->next_row();
+    std::vector<Label> first = all_of(*volume);
+    EXPECT_EQ(all_of(*volume), first) << name;
     return first;
   }
   void expect_made(const std::string& name, const VolumeChoice& choice = {}) const {

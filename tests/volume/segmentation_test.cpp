@@ -28,17 +28,6 @@ namespace {
 
 using test::MadeVolume;
 
-std::vector<Label> all_of(LabelVolume& volume) {
-  std::vector<Label> labels;
-  const VoxelCounts& counts = volume.geometry().counts;
-  volume.rewind();
-  for (int row = 0; row < counts[1] * counts[2]; ++row) {
-    const std::vector<Label>& next = volume.next_row();
-    labels.insert(labels.end(), next.begin(), next.end());
-  }
-  return labels;
-}
-
 class SegmentationOfAFile : public test::VolumeFolder {
  protected:
   void write_made(const std::string& spacings = "1 1 1") const {

@@ -72,19 +72,9 @@ TEST_F(VolumeParts, AreThoseOfAFlood) {
     const std::vector<Label> wanted = flooded(made_, background);
     const std::unique_ptr<LabelVolume> parts =
         parts_of(open_volume(path("a.nrrd")), background, Execution(1));
-    for (int again = 0; again < 2; ++again) {
-      std::vector<Label> found;
-      parts->rewind();
-      for (int row = 0; row < made_.counts[1] * made_.counts[2]; ++row) {
-        const std::vector<Label>& next = parts->next_row();
-        found.insert(found.end(), next.begin(), next.end());
-        // Left in the middle, and begun again.
-        if (again == 0 && row == 2) break;
-      }
-      if (again == 1) {
-        EXPECT_EQ(found, wanted) << "round " << round;
-      }
-    }
+    // Left in the middle, and begun again.
+    for (int row = 0; row < 3; ++row) parts->next_row();
+    EXPECT_EQ(all_of(*parts), wanted) << "round " << round;
 
     // The census counts them, slice by slice.
     const std::unique_ptr<LabelVolume> volume = open_volume(path("a.nrrd"));
