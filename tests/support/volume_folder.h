@@ -64,6 +64,13 @@ class VolumeFolder : public FileFolder {
     EXPECT_EQ(labels_of(name, choice), made_.labels) << name;
   }
 
+  /// Writes a file that has the labels.
+  void expect_made_of(const std::string& name, const std::string& bytes,
+                      const VolumeChoice& choice = {}) const {
+    write(name, bytes);
+    expect_made(name, choice);
+  }
+
   VolumeGeometry geometry(const std::string& name, const VolumeChoice& choice = {}) const {
     return open_volume(path(name), choice)->geometry();
   }
@@ -80,6 +87,14 @@ class VolumeFolder : public FileFolder {
     for (const std::string& word : words) {
       EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
     }
+  }
+
+  /// Writes a file that has to be refused.
+  void expect_refused_of(const std::string& name, const std::string& bytes,
+                         const std::vector<std::string>& words,
+                         const VolumeChoice& choice = {}) const {
+    write(name, bytes);
+    expect_refused(name, words, choice);
   }
 
   /// The file without its last bytes is refused, however many they are, by itself or by its header.

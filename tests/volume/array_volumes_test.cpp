@@ -71,24 +71,18 @@ class ArrayVolumes : public test::VolumeFolder {
 
 TEST_F(ArrayVolumes, ReadsNumpyOfEveryTypeAndOrder) {
   const std::string shape = "3, 5, 7";
-  write("a.npy", npy("|u1", "False", shape, made_.bytes<std::uint8_t>()));
-  expect_made("a.npy");
-  write("a.npy", npy("|i1", "False", shape, made_.bytes<std::int8_t>()));
-  expect_made("a.npy");
-  write("a.npy", npy("<u2", "False", shape, made_.bytes<std::uint16_t>(), 2));
-  expect_made("a.npy");
-  write("a.npy", npy(">i4", "False", shape, made_.bytes<std::int32_t>(true), 3));
-  expect_made("a.npy");
-  write("a.npy", npy("<i8", "False", shape, made_.bytes<std::int64_t>()));
-  expect_made("a.npy");
+  expect_made_of("a.npy", npy("|u1", "False", shape, made_.bytes<std::uint8_t>()));
+  expect_made_of("a.npy", npy("|i1", "False", shape, made_.bytes<std::int8_t>()));
+  expect_made_of("a.npy", npy("<u2", "False", shape, made_.bytes<std::uint16_t>(), 2));
+  expect_made_of("a.npy", npy(">i4", "False", shape, made_.bytes<std::int32_t>(true), 3));
+  expect_made_of("a.npy", npy("<i8", "False", shape, made_.bytes<std::int64_t>()));
   expect_cut_is_refused("a.npy", 1);
   std::string doubles;
   for (const Label label : made_.labels) {
     const auto value = static_cast<double>(label);
     doubles.append(reinterpret_cast<const char*>(&value), 8);
   }
-  write("a.npy", npy("<f8", "False", shape, doubles));
-  expect_made("a.npy");
+  expect_made_of("a.npy", npy("<f8", "False", shape, doubles));
   expect_placed("a.npy", Vector3(1, 1, 1));
   // The first dimension fastest: nothing is mirrored by it.
   write("a.npy", npy("<u2", "True", shape, turned()));
@@ -99,21 +93,20 @@ TEST_F(ArrayVolumes, ReadsNumpyOfEveryTypeAndOrder) {
   EXPECT_LT((geometry("a.npy", choice).point({1, 1, 1}) - Vector3(1, 2, 4)).norm(), 1e-15);
   EXPECT_LT((geometry("a.npy", choice).point({1, 0, 0}) - Vector3(0, 0, 4)).norm(), 1e-15);
   made_.labels.assign(made_.labels.size(), 1);
-  write("a.npy", npy("|b1", "False", shape, std::string(105, '\1')));
-  expect_made("a.npy");
+  expect_made_of("a.npy", npy("|b1", "False", shape, std::string(105, '\1')));
 }
 
 TEST_F(ArrayVolumes, NamesTheDimensionsOfNumpyThatAreMoreThanThree) {
   const std::string voxels = made_.bytes<std::uint16_t>();
   MadeVolume more = made_;
   for (Label& label : more.labels) label += 200;
-  write("a.npy", npy("<u2", "False", "2, 3, 5, 7", voxels + more.bytes<std::uint16_t>()));
-  expect_refused("a.npy", {"2 frames"});
+  expect_refused_of("a.npy",
+                    npy("<u2", "False", "2, 3, 5, 7", voxels + more.bytes<std::uint16_t>()),
+                    {"2 frames"});
   expect_made("a.npy", frame(1));
   EXPECT_EQ(labels_of("a.npy", frame(2)), labels(200));
   for (const char* shape : {"1, 3, 5, 7", "3, 5, 7, 1", "1, 3, 1, 5, 7", "3, 5, 7,"}) {
-    write("a.npy", npy("<u2", "False", shape, voxels));
-    expect_made("a.npy");
+    expect_made_of("a.npy", npy("<u2", "False", shape, voxels));
   }
   for (const auto& [shape, word] : std::vector<std::pair<std::string, std::string>>{
            {"15, 7", "three dimensions"},
@@ -123,19 +116,14 @@ TEST_F(ArrayVolumes, NamesTheDimensionsOfNumpyThatAreMoreThanThree) {
            {"3, x, 7", "whole numbers"},
            {"2, 2, 3, 5, 7", "more than one dimension"},
            {"3, 5, 7000000", "7000000"}}) {
-    write("a.npy", npy("<u2", "False", shape, voxels));
-    expect_refused("a.npy", {word});
+    expect_refused_of("a.npy", npy("<u2", "False", shape, voxels), {word});
   }
   for (const char* type : {"<c8", "<U4", "<M8[s]", "|O", "<f2", "u", ""}) {
-    write("a.npy", npy(type, "False", "3, 5, 7", voxels));
-    expect_refused("a.npy", {"type"});
+    expect_refused_of("a.npy", npy(type, "False", "3, 5, 7", voxels), {"type"});
   }
-  write("a.npy", npy("<u2", "Maybe", "3, 5, 7", voxels));
-  expect_refused("a.npy", {"order"});
-  write("a.npy", "\x93NUMPY\1");
-  expect_refused("a.npy", {"not a NumPy array"});
-  write("a.npy", "no array");
-  expect_refused("a.npy", {"not a NumPy array"});
+  expect_refused_of("a.npy", npy("<u2", "Maybe", "3, 5, 7", voxels), {"order"});
+  expect_refused_of("a.npy", "\x93NUMPY\1", {"not a NumPy array"});
+  expect_refused_of("a.npy", "no array", {"not a NumPy array"});
 }
 
 TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
@@ -144,8 +132,7 @@ TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
   for (const Label label : made_.labels) {
     for (std::size_t c = 0; c < 3; ++c) all += test::four_bytes(label + 200 * c).substr(0, 2);
   }
-  write("a.npy", npy("<u2", "False", "7, 8, 9, 3", all));
-  expect_refused("a.npy", {"3 channels", "--channel"});
+  expect_refused_of("a.npy", npy("<u2", "False", "7, 8, 9, 3", all), {"3 channels", "--channel"});
   expect_made("a.npy", channel(1));
   EXPECT_EQ(labels_of("a.npy", channel(3)), labels(400));
   // With frames before: both are chosen.
@@ -195,8 +182,7 @@ TEST_F(ArrayVolumes, ReadsTheChosenArrayOfAnNpz) {
       content.assign(std::istreambuf_iterator<char>(stream), {});
     }
     content[level == 0 ? 300 : 120] = static_cast<char>(content[level == 0 ? 300 : 120] ^ 1);
-    write("a.npz", content);
-    expect_refused("a.npz", {});
+    expect_refused_of("a.npz", content, {});
   }
   write_npz({{"arr_0.npy", voxels}}, 6);
   std::filesystem::resize_file(path("a.npz"), std::filesystem::file_size(path("a.npz")) - 22);
@@ -280,16 +266,15 @@ TEST_F(ArrayVolumes, ReadsNifti) {
       Nifti nifti;
       nifti.version = version;
       nifti.big_endian = big;
-      write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
-      expect_made("a.nii");
+      expect_made_of("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>(big));
       const VolumeGeometry placed = geometry("a.nii");
       EXPECT_EQ(placed.unit, "um");
       EXPECT_TRUE(placed.has_size);
       EXPECT_LT((placed.point({0.5, 0.5, 0.5}) - Vector3(10, 20, 30)).norm(), 1e-12);
       EXPECT_LT((placed.point({1.5, 0.5, 0.5}) - Vector3(10, 19.5, 30)).norm(), 1e-12);
       EXPECT_LT((placed.point({0.5, 1.5, 1.5}) - Vector3(10.25, 20, 32)).norm(), 1e-12);
-      write("a.nii.gz", test::packed(nifti.bytes() + made_.bytes<std::uint16_t>(big), true));
-      expect_made("a.nii.gz");
+      expect_made_of("a.nii.gz",
+                     test::packed(nifti.bytes() + made_.bytes<std::uint16_t>(big), true));
       EXPECT_TRUE(is_volume(path("a.nii.gz")));
       EXPECT_FALSE(is_volume(path("a.ply.gz")));
       nifti.sform = 0;
@@ -304,12 +289,12 @@ TEST_F(ArrayVolumes, ReadsNifti) {
       const std::string first = made_.bytes<std::uint16_t>(big);
       MadeVolume more = made_;
       for (Label& label : more.labels) label += 200;
-      write("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big));
-      expect_refused("a.nii", {"2 frames"});
+      expect_refused_of("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big),
+                        {"2 frames"});
       EXPECT_EQ(labels_of("a.nii", frame(2)), labels(200));
       nifti.dimensions = {5, 7, 5, 3, 1, 2};
-      write("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big));
-      expect_refused("a.nii", {"2 channels"});
+      expect_refused_of("a.nii", nifti.bytes() + first + more.bytes<std::uint16_t>(big),
+                        {"2 channels"});
       EXPECT_EQ(labels_of("a.nii", channel(2)), labels(200));
     }
   }
@@ -357,14 +342,12 @@ TEST_F(ArrayVolumes, ReadsNifti) {
   nifti.more = 3.0;  // as dcm2niix writes CT, with -1024
   write_as(4, 16, made_.bytes<std::int16_t>());
   EXPECT_EQ(open_volume(path("a.nii"))->next_row().front(), made_.labels.front() + 3);
-  write("a.nii", "no NIfTI");
-  expect_refused("a.nii", {"not a NIfTI"});
+  expect_refused_of("a.nii", "no NIfTI", {"not a NIfTI"});
   nifti.slope = 0.0;
   nifti.dimensions = {3, 7, 0, 3};
   write_as(4, 16, made_.bytes<std::int16_t>());
   expect_refused("a.nii", {"dimensions below 1"});
-  write("a.nii.gz", test::packed("no NIfTI", true));
-  expect_refused("a.nii.gz", {"not a NIfTI"});
+  expect_refused_of("a.nii.gz", test::packed("no NIfTI", true), {"not a NIfTI"});
 }
 
 TEST_F(ArrayVolumes, ReadsLegacyVtk) {
@@ -375,15 +358,13 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
   };
   const std::string scalars =
       "POINT_DATA 105\nSCALARS labels unsigned_short 1\nLOOKUP_TABLE default\n";
-  write("a.vtk", head("BINARY", "7 5 3") + scalars + made_.bytes<std::uint16_t>(true));
-  expect_made("a.vtk");
+  expect_made_of("a.vtk", head("BINARY", "7 5 3") + scalars + made_.bytes<std::uint16_t>(true));
   EXPECT_TRUE(notes("a.vtk").empty());
   EXPECT_LT((geometry("a.vtk").point({0.5, 0.5, 0.5}) - Vector3(10, 20, 30)).norm(), 1e-13);
   expect_cut_is_refused("a.vtk", 1);
-  write("a.vtk", head("BINARY", "8 6 4") +
-                     "CELL_DATA 105\nSCALARS labels int\nLOOKUP_TABLE default\n" +
-                     made_.bytes<std::int32_t>(true));
-  expect_made("a.vtk");
+  expect_made_of("a.vtk", head("BINARY", "8 6 4") +
+                              "CELL_DATA 105\nSCALARS labels int\nLOOKUP_TABLE default\n" +
+                              made_.bytes<std::int32_t>(true));
   EXPECT_LT((geometry("a.vtk").point({0, 0, 0}) - Vector3(10, 20, 30)).norm(), 1e-13);
   for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
            {"unsigned_char", made_.bytes<std::uint8_t>()},
@@ -393,9 +374,8 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
            {"long", made_.bytes<std::int64_t>(true)},
            {"vtktypeint64", made_.bytes<std::int64_t>(true)},
            {"unsigned_long", made_.bytes<std::uint64_t>(true)}}) {
-    write("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS labels " + name +
-                       "\nLOOKUP_TABLE default\n" + bytes);
-    expect_made("a.vtk");
+    expect_made_of("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS labels " + name +
+                                "\nLOOKUP_TABLE default\n" + bytes);
   }
   // Several arrays, among them those of a field; text and numbers.
   std::string text;
@@ -408,20 +388,22 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
   }
   const std::string fields = "FIELD FieldData 2\nlabels 1 105 int\n" + text +
                              "\nMETADATA\nINFORMATION 0\n\npair 2 105 int\n" + twice;
-  write("a.vtk", head("ASCII", "7 5 3") +
-                     "POINT_DATA 105\nSCALARS grey float\nLOOKUP_TABLE default\n" + grey + "\n" +
-                     fields);
-  expect_refused("a.vtk", {"3 arrays", "\"grey\"", "\"labels\"", "\"pair\""});
+  expect_refused_of("a.vtk",
+                    head("ASCII", "7 5 3") +
+                        "POINT_DATA 105\nSCALARS grey float\nLOOKUP_TABLE default\n" + grey + "\n" +
+                        fields,
+                    {"3 arrays", "\"grey\"", "\"labels\"", "\"pair\""});
   expect_made("a.vtk", array("labels"));
   VolumeChoice choice = array("pair");
   expect_refused("a.vtk", {"2 channels"}, choice);
   choice.channel = 2;
   EXPECT_EQ(labels_of("a.vtk", choice), labels(200));
   expect_refused("a.vtk", {"0.5"}, array("grey"));
-  write("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nFIELD f 2\na 1 105 unsigned_char\n" +
+  expect_made_of("a.vtk",
+                 head("BINARY", "7 5 3") + "POINT_DATA 105\nFIELD f 2\na 1 105 unsigned_char\n" +
                      std::string(105, '\n') + "\nlabels 1 105 unsigned_short\n" +
-                     made_.bytes<std::uint16_t>(true) + "\n");
-  expect_made("a.vtk", array("labels"));
+                     made_.bytes<std::uint16_t>(true) + "\n",
+                 array("labels"));
   for (const auto& [wrong, word] : std::vector<std::pair<std::string, std::string>>{
            {"no VTK\n", "VTK"},
            {"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 0 float\n",
@@ -436,8 +418,7 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
                 scalars + made_.bytes<std::uint16_t>(true),
             "the spacing -1, -1, 1"},
            {head("OTHER", "7 5 3"), "ASCII"}}) {
-    write("a.vtk", wrong);
-    expect_refused("a.vtk", {word});
+    expect_refused_of("a.vtk", wrong, {word});
   }
 }
 
@@ -525,10 +506,8 @@ TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
   expect_refused("a.h5", {"2 frames"}, choice);
   choice.frame = 2;
   EXPECT_EQ(labels_of("a.h5", choice), labels(200));
-  write("b.h5", "no HDF5");
-  expect_refused("b.h5", {"not an HDF5"});
-  write("b.mat", "MATLAB 5.0 MAT-file");
-  expect_refused("b.mat", {"-v7.3"});
+  expect_refused_of("b.h5", "no HDF5", {"not an HDF5"});
+  expect_refused_of("b.mat", "MATLAB 5.0 MAT-file", {"-v7.3"});
 }
 
 TEST_F(Hdf5Volumes, OfMatlabAreNotMirrored) {

@@ -91,24 +91,19 @@ class LabelVolumeOfAFile : public test::VolumeFolder {
 };
 
 TEST_F(LabelVolumeOfAFile, ReadsNrrdOfEveryTypeAndOrder) {
-  write("a.nrrd", nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
-  expect_made("a.nrrd");
-  write("a.nrrd", nrrd("unsigned short", "endian: big\nencoding: raw\n\n") +
-                      made_.bytes<std::uint16_t>(true));
-  expect_made("a.nrrd");
-  write("a.nrrd", nrrd("int", "endian: little\nencoding: gzip\n\n") +
-                      test::packed(made_.bytes<std::int32_t>(), true));
-  expect_made("a.nrrd");
-  write("a.nrrd", nrrd("uint64", "endian: little\nencoding: gz\n\n") +
-                      test::packed(made_.bytes<std::uint64_t>(), true));
-  expect_made("a.nrrd");
+  expect_made_of("a.nrrd", nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
+  expect_made_of("a.nrrd", nrrd("unsigned short", "endian: big\nencoding: raw\n\n") +
+                               made_.bytes<std::uint16_t>(true));
+  expect_made_of("a.nrrd", nrrd("int", "endian: little\nencoding: gzip\n\n") +
+                               test::packed(made_.bytes<std::int32_t>(), true));
+  expect_made_of("a.nrrd", nrrd("uint64", "endian: little\nencoding: gz\n\n") +
+                               test::packed(made_.bytes<std::uint64_t>(), true));
   write("voxels", "12345" + made_.bytes<std::int16_t>());
-  write("a.nhdr",
-        nrrd("short", "encoding: raw\nbyte skip: 5\ndata file: voxels\nendian: little\n"));
-  expect_made("a.nhdr");
-  write("a.nhdr",
-        nrrd("short", "encoding: raw\nendian: little\nbyte skip: -1\ndata file: ./voxels\n"));
-  expect_made("a.nhdr");
+  expect_made_of("a.nhdr",
+                 nrrd("short", "encoding: raw\nbyte skip: 5\ndata file: voxels\nendian: little\n"));
+  expect_made_of(
+      "a.nhdr",
+      nrrd("short", "encoding: raw\nendian: little\nbyte skip: -1\ndata file: ./voxels\n"));
 }
 
 TEST_F(LabelVolumeOfAFile, KeepsPlaceSizeAndUnitOfNrrd) {
@@ -144,17 +139,15 @@ TEST_F(LabelVolumeOfAFile, ReadsGzipOfSeveralStreams) {
       begin = cut;
     }
     packed += test::packed(voxels.substr(begin), true);
-    write("a.nrrd", nrrd("ushort", "encoding: gzip\nendian: little\n\n") + packed);
-    expect_made("a.nrrd");
+    expect_made_of("a.nrrd", nrrd("ushort", "encoding: gzip\nendian: little\n\n") + packed);
   }
   // The same of zlib, in the blocks of a .vti and in MetaImage.
   write("a.zraw", test::packed(voxels.substr(0, 31), false) +
                       test::packed(voxels.substr(31, 100), false) +
                       test::packed(voxels.substr(131), false));
-  write("a.mhd", "NDims = 3\nDimSize = " + made_.size_text() +
-                     "\nElementType = MET_USHORT\nCompressedData = True\n"
-                     "ElementDataFile = a.zraw\n");
-  expect_made("a.mhd");
+  expect_made_of("a.mhd", "NDims = 3\nDimSize = " + made_.size_text() +
+                              "\nElementType = MET_USHORT\nCompressedData = True\n"
+                              "ElementDataFile = a.zraw\n");
 }
 
 // Axes that are neither at right angles nor alike, steps of 2, 3 and 5 along them: no two of the
@@ -221,21 +214,18 @@ TEST_F(LabelVolumeOfAFile, EachAxisHasItsOwnDirectionAndStepInEveryFormat) {
 TEST_F(LabelVolumeOfAFile, ReadsMetaImage) {
   const std::string fields = "ObjectType = Image\nNDims = 3\nDimSize = " + made_.size_text() +
                              "\nElementSpacing = 0.1 0.2 0.4\nOffset = 10 20 30\n";
-  write("a.mha", fields + "ElementType = MET_USHORT\nElementDataFile = LOCAL\n" +
-                     made_.bytes<std::uint16_t>());
-  expect_made("a.mha");
+  expect_made_of("a.mha", fields + "ElementType = MET_USHORT\nElementDataFile = LOCAL\n" +
+                              made_.bytes<std::uint16_t>());
   EXPECT_LT((geometry("a.mha").point({1.5, 1.5, 1.5}) - Vector3(10.1, 20.2, 30.4)).norm(), 1e-13);
   expect_cut_is_refused("a.mha", 20);
   write("a.zraw", test::packed(made_.bytes<std::uint8_t>(), false));
-  write("a.mhd", fields +
-                     "ElementType = MET_UCHAR\nCompressedData = True\n"
-                     "ElementDataFile = a.zraw\n");
-  expect_made("a.mhd");
+  expect_made_of("a.mhd", fields +
+                              "ElementType = MET_UCHAR\nCompressedData = True\n"
+                              "ElementDataFile = a.zraw\n");
   write("a.raw", made_.bytes<std::uint32_t>(true));
-  write("a.mhd", fields +
-                     "ElementType = MET_UINT\nBinaryDataByteOrderMSB = True\n"
-                     "ElementDataFile = a.raw\n");
-  expect_made("a.mhd");
+  expect_made_of("a.mhd", fields +
+                              "ElementType = MET_UINT\nBinaryDataByteOrderMSB = True\n"
+                              "ElementDataFile = a.raw\n");
   expect_cut_is_refused("a.raw", 1, "a.mhd");
 }
 
@@ -243,8 +233,7 @@ TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
   const std::string points =
       "<ImageData WholeExtent=\"1 7 0 4 0 2\" Origin=\"10 20 30\" Spacing=\"0.1 0.2 0.4\">\n"
       "<Piece Extent=\"1 7 0 4 0 2\">\n";
-  write("packed.vti", test::packed_vti(made_, points));
-  expect_made("packed.vti");
+  expect_made_of("packed.vti", test::packed_vti(made_, points));
   // Points are the middles of voxels; the first has the number 1 along x.
   EXPECT_LT((geometry("packed.vti").point({0.5, 0.5, 0.5}) - Vector3(10.1, 20.0, 30.0)).norm(),
             1e-13);
@@ -258,13 +247,11 @@ TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
   std::string length(8, '\0');
   length[6] = static_cast<char>(bytes.size() >> 8);
   length[7] = static_cast<char>(bytes.size() & 0xff);
-  write("raw.vti", cells + "3" + end_of_cells + "\"raw\">\n _<&>" + length + bytes +
-                       "\n</AppendedData></VTKFile>");
-  expect_made("raw.vti");
+  expect_made_of("raw.vti", cells + "3" + end_of_cells + "\"raw\">\n _<&>" + length + bytes +
+                                "\n</AppendedData></VTKFile>");
   EXPECT_LT((geometry("raw.vti").point({0.0, 0.0, 0.0}) - Vector3(10.0, 20.0, 30.0)).norm(), 1e-13);
-  write("text.vti", cells + "0" + end_of_cells + "\"base64\">_" + test::base64(length + bytes) +
-                        "</AppendedData></VTKFile>");
-  expect_made("text.vti");
+  expect_made_of("text.vti", cells + "0" + end_of_cells + "\"base64\">_" +
+                                 test::base64(length + bytes) + "</AppendedData></VTKFile>");
   for (const auto& [known, other] :
        std::vector<std::pair<std::string, std::string>>{{"=\"binary\">\n", "=\"ascii\">\n"},
                                                         {"ZLib", "LZMA"},
@@ -275,8 +262,7 @@ TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
     std::string text = test::packed_vti(made_, points);
     const std::size_t place = text.find(known);
     ASSERT_NE(place, std::string::npos);
-    write("wrong.vti", text.replace(place, known.size(), other));
-    expect_refused("wrong.vti", {});
+    expect_refused_of("wrong.vti", text.replace(place, known.size(), other), {});
   }
   for (const char* name : {"packed.vti", "raw.vti", "text.vti"}) {
     const std::uintmax_t end = fs::file_size(path(name));
@@ -288,9 +274,9 @@ TEST_F(LabelVolumeOfAFile, ReadsVtiInAllItsForms) {
 
 TEST_F(LabelVolumeOfAFile, ReadsRawFilesByTheirDescription) {
   write("a.raw", "head" + made_.bytes<std::uint16_t>(true));
-  write("a.json", R"({"dimensions": [7, 5, 3], "type": "uint16", "byte_order": "big", "offset": 4,
+  expect_made_of("a.json",
+                 R"({"dimensions": [7, 5, 3], "type": "uint16", "byte_order": "big", "offset": 4,
                   "spacing": 0.5, "origin": [1, 2, 3], "unit": "um"})");
-  expect_made("a.json");
   EXPECT_EQ(geometry("a.json").unit, "um");
   EXPECT_LT((geometry("a.json").point({1.5, 0.5, 0.5}) - Vector3(1.5, 2.0, 3.0)).norm(), 1e-15);
   expect_cut_is_refused("a.raw", 1, "a.json");
@@ -356,8 +342,7 @@ TEST_F(LabelVolumeOfAFile, ReadsTiffPagesFoldersAndStacksOfImageJ) {
   const std::size_t entry = bytes.find(tag);
   ASSERT_NE(entry, std::string::npos);
   bytes.replace(entry + 8, 4, big_endian(bytes.size()));
-  write("one.tif", bytes + made_.bytes<std::uint16_t>(true));
-  expect_made("one.tif");
+  expect_made_of("one.tif", bytes + made_.bytes<std::uint16_t>(true));
   expect_cut_is_refused("one.tif", bytes.size());
 }
 
@@ -440,8 +425,7 @@ TEST_F(LabelVolumeOfAFile, RefusesWhatIsWrongWithAHeaderOrCut) {
         nrrd("uchar", "data file: %03d.raw 1 3 1\nencoding: raw\n\n") + voxels,
         nrrd("uchar", "encoding: gzip\n\n") + voxels}) {
     SCOPED_TRACE(wrong.substr(0, 200));
-    write("a.nrrd", wrong);
-    expect_refused("a.nrrd", {});
+    expect_refused_of("a.nrrd", wrong, {});
   }
   for (const char* encoding : {"raw", "gzip"}) {
     const bool is_packed = std::string(encoding) == "gzip";
@@ -461,20 +445,16 @@ TEST_F(LabelVolumeOfAFile, HoldsLabelsUpToTheLargest) {
     SCOPED_TRACE(label);
     made_.labels.back() = label;
     if (label <= 255) {
-      write("a.nrrd", nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
-      expect_made("a.nrrd");
+      expect_made_of("a.nrrd", nrrd("uchar", "encoding: raw\n\n") + made_.bytes<std::uint8_t>());
     }
     if (label <= 65535) {
-      write("a.nrrd",
-            nrrd("ushort", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint16_t>());
-      expect_made("a.nrrd");
+      expect_made_of("a.nrrd", nrrd("ushort", "endian: little\nencoding: raw\n\n") +
+                                   made_.bytes<std::uint16_t>());
     }
-    write("a.nrrd",
-          nrrd("uint", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint32_t>());
-    expect_made("a.nrrd");
-    write("a.nrrd",
-          nrrd("int64", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint64_t>());
-    expect_made("a.nrrd");
+    expect_made_of(
+        "a.nrrd", nrrd("uint", "endian: little\nencoding: raw\n\n") + made_.bytes<std::uint32_t>());
+    expect_made_of("a.nrrd", nrrd("int64", "endian: little\nencoding: raw\n\n") +
+                                 made_.bytes<std::uint64_t>());
   }
 }
 
@@ -483,29 +463,28 @@ TEST_F(LabelVolumeOfAFile, SkipsTheHeaderThatAMetaImageTellsOf) {
                              "\nElementType = MET_USHORT\nElementDataFile = a.raw\n";
   write("a.raw", "1234567" + made_.bytes<std::uint16_t>());
   for (const char* size : {"7", "-1"}) {  // -1: all but the voxels
-    write("a.mhd", std::string("HeaderSize = ") + size + "\n" + fields);
-    expect_made("a.mhd");
+    expect_made_of("a.mhd", std::string("HeaderSize = ") + size + "\n" + fields);
   }
 }
 
 TEST_F(LabelVolumeOfAFile, FirstPointOfAVtiMayHaveAnyNumbers) {
-  write("a.vti", test::packed_vti(made_,
+  expect_made_of("a.vti",
+                 test::packed_vti(made_,
                                   "<ImageData WholeExtent=\"-4 2 3 7 11 13\" Origin=\"10 20 "
                                   "30\" Spacing=\"2 3 5\">\n<Piece Extent=\"-4 2 3 7 11 "
                                   "13\">\n"));
-  expect_made("a.vti");
   const VolumeGeometry placed = geometry("a.vti");
   EXPECT_EQ(placed.point({0.5, 0.5, 0.5}), Vector3(10 - 8, 20 + 9, 30 + 55));
 }
 
 TEST_F(LabelVolumeOfAFile, RefusesVoxelsThatAreNoLabels) {
   made_.at(3, 3, 1) = static_cast<std::uint32_t>(-5);
-  write("a.nrrd", nrrd("short", "endian: little\nencoding: raw\n\n") + made_.bytes<std::int16_t>());
-  expect_refused("a.nrrd", {});
+  expect_refused_of(
+      "a.nrrd", nrrd("short", "endian: little\nencoding: raw\n\n") + made_.bytes<std::int16_t>(),
+      {});
   std::string bytes = made_.bytes<std::uint64_t>();
   bytes[4] = 1;  // 2^32
-  write("a.nrrd", nrrd("uint64", "endian: little\nencoding: raw\n\n") + bytes);
-  expect_refused("a.nrrd", {});
+  expect_refused_of("a.nrrd", nrrd("uint64", "endian: little\nencoding: raw\n\n") + bytes, {});
 }
 
 TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
@@ -546,8 +525,7 @@ TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
   const std::string way = test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("a.am")); });
   const std::size_t begin = way.find('{');
   ASSERT_NE(begin, std::string::npos) << way;
-  write("labels.json", way.substr(begin, way.find('}') - begin + 1));
-  expect_made("labels.json");
+  expect_made_of("labels.json", way.substr(begin, way.find('}') - begin + 1));
 }
 
 }  // namespace

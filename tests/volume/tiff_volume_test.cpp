@@ -54,6 +54,19 @@ class TiffVolume : public test::VolumeFolder {
     return all;
   }
 
+  /// Writes pages that have the labels, or have to be refused.
+  void expect_made_of(const TiffPages& stack, const std::vector<std::string>& content,
+                      const VolumeChoice& choice = {}) const {
+    write_tiff(path("a.tif"), stack, content);
+    expect_made("a.tif", choice);
+  }
+  void expect_refused_of(const TiffPages& stack, const std::vector<std::string>& content,
+                         const std::vector<std::string>& words,
+                         const VolumeChoice& choice = {}) const {
+    write_tiff(path("a.tif"), stack, content);
+    expect_refused("a.tif", words, choice);
+  }
+
   void write_png(const std::string& name, int z, int bits, int color, bool interlaced = false,
                  int height = 5) const {
     std::FILE* const file = std::fopen(path(name).c_str(), "wb");
@@ -103,8 +116,7 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
   for (const char* mode : {"wl", "wb", "w8"}) {
     stack.mode = mode;
     stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=4\nhyperstack=true\n";
-    write_tiff(path("a.tif"), stack, all);
-    expect_refused("a.tif", {"2 channels", "--channel"});
+    expect_refused_of(stack, all, {"2 channels", "--channel"});
     expect_refused("a.tif", {"4 frames", "--time"}, channel(1));
     VolumeChoice choice = channel(2);
     choice.frame = 3;
@@ -115,18 +127,14 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
     expect_refused("a.tif", {"4 frames, not a frame 5"}, choice);
   }
   stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=3\n";
-  write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"24 images", "3 slices"}, channel(1));
+  expect_refused_of(stack, all, {"24 images", "3 slices"}, channel(1));
   stack.text = "ImageJ=1.53\nimages=12\nslices=12\n";
-  write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"24 pages, but ImageJ noted 12"});
+  expect_refused_of(stack, all, {"24 pages, but ImageJ noted 12"});
   stack.text = "ImageJ=1.53\nimages=24\nframes=24\n";
-  write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"one slice", "24 images"});
+  expect_refused_of(stack, all, {"one slice", "24 images"});
   // A stack of slices has no channel to choose but the first.
   stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
-  write_tiff(path("a.tif"), stack, pages());
-  expect_made("a.tif", channel(1));
+  expect_made_of(stack, pages(), channel(1));
   expect_refused("a.tif", {"1 channel, not a channel 2"}, channel(2));
   expect_refused("a.tif", {"--array"}, test::array("labels"));
 }
@@ -173,8 +181,7 @@ TEST_F(TiffVolume, RefusesImageJsAxesInTwoUnits) {
   TiffPages stack = as();
   stack.resolution = 20.0;
   stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=mm\nzunit=micron\nspacing=0.25\n";
-  write_tiff(path("a.tif"), stack, pages());
-  expect_refused("a.tif", {"in \"mm\" and in \"um\"", "--voxel-size"});
+  expect_refused_of(stack, pages(), {"in \"mm\" and in \"um\"", "--voxel-size"});
   VolumeChoice given;
   given.voxel_size = Vector3(0.05, 0.1, 0.00025);
   EXPECT_EQ(open_volume(path("a.tif"), given)->geometry().point({1, 1, 1}), *given.voxel_size);
@@ -326,13 +333,11 @@ TEST_F(TiffVolume, RefusesOmesTextThatFitsNoPages) {
     SCOPED_TRACE(xml);
     TiffPages stack = as();
     stack.text = xml;
-    write_tiff(path("a.tif"), stack, pages());
-    expect_refused("a.tif", {word});
+    expect_refused_of(stack, pages(), {word});
   }
   TiffPages stack = as();
   stack.text = text("PhysicalSizeX=\"2\" PhysicalSizeY=\"3\"", "");
-  write_tiff(path("a.tif"), stack, pages());
-  expect_made("a.tif");
+  expect_made_of(stack, pages());
   EXPECT_EQ(geometry("a.tif").unit, "um");
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(2, 3, 2)).norm(), 1e-12);
   EXPECT_NE(notes("a.tif").at(0).find("PhysicalSizeZ"), std::string::npos);
@@ -343,8 +348,7 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   for (const std::string& one : pages(400)) all.push_back(one);
   TiffPages stack = as();
   stack.text = R"({"shape": [2, 3, 5, 7]})";
-  write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"2 frames", "--time"});
+  expect_refused_of(stack, all, {"2 frames", "--time"});
   EXPECT_EQ(labels_of("a.tif", frame(2)), labels(400));
   stack.text = R"({"shape": [2, 3, 5, 7], "axes": "CZYX"})";
   write_tiff(path("a.tif"), stack, all);
@@ -353,22 +357,18 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   write_tiff(path("a.tif"), stack, {all[0], all[3], all[1], all[4], all[2], all[5]});
   EXPECT_EQ(labels_of("a.tif", channel(2)), labels(400));
   stack.text = R"({"shape": [2, 4, 5, 7]})";
-  write_tiff(path("a.tif"), stack, all);
-  expect_refused("a.tif", {"6 pages", "2 x 4 x 5 x 7"}, frame(1));
+  expect_refused_of(stack, all, {"6 pages", "2 x 4 x 5 x 7"}, frame(1));
   for (const char* wrong :
        {R"({"shape": [-6, 5, 7]})", R"({"shape": [7]})", R"({"shape": [6, 5, 7], "axes": "ZY"})"}) {
     stack.text = wrong;
-    write_tiff(path("a.tif"), stack, all);
-    expect_refused("a.tif", {"shape"});
+    expect_refused_of(stack, all, {"shape"});
   }
   stack.text = R"({"shape": [3, 5, 7]})";
-  write_tiff(path("a.tif"), stack, pages());
-  expect_made("a.tif");
+  expect_made_of(stack, pages());
   // To choose one of the frames would lead to one image.
   for (const char* axes : {"TYX", "CYX"}) {
     stack.text = std::string(R"({"shape": [3, 5, 7], "axes": ")") + axes + "\"}";
-    write_tiff(path("a.tif"), stack, pages());
-    expect_refused("a.tif", {"one slice", "3 pages are channels or frames", "ZYX"});
+    expect_refused_of(stack, pages(), {"one slice", "3 pages are channels or frames", "ZYX"});
   }
 }
 
@@ -388,8 +388,7 @@ TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
       }
       all.push_back(mixed);
     }
-    write_tiff(path("a.tif"), stack, all);
-    expect_refused("a.tif", {is_planar ? "3 channels" : "picture in colours"});
+    expect_refused_of(stack, all, {is_planar ? "3 channels" : "picture in colours"});
     expect_made("a.tif", channel(1));
     EXPECT_EQ(labels_of("a.tif", channel(3)), labels(120)) << is_planar;
   }
@@ -418,16 +417,13 @@ TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
     for (const char* mode : {"wl", "wb"}) {
       stack.mode = mode;
       stack.bits = 32;
-      write_tiff(path("a.tif"), stack, cut(bytes_of_float<float>(made_.labels, 127.0F)));
-      expect_made("a.tif");
+      expect_made_of(stack, cut(bytes_of_float<float>(made_.labels, 127.0F)));
       stack.bits = 64;
-      write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, 127.0)));
-      expect_made("a.tif");
+      expect_made_of(stack, cut(bytes_of_float<double>(made_.labels, 127.0)));
     }
   }
   made_.labels.back() = 4294967295U;
-  write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, 4294967295.0)));
-  expect_made("a.tif");
+  expect_made_of(stack, cut(bytes_of_float<double>(made_.labels, 4294967295.0)));
   for (const double wrong : {0.5, -1.0, 4294967296.0, HUGE_VAL}) {
     write_tiff(path("a.tif"), stack, cut(bytes_of_float<double>(made_.labels, wrong)));
     // The first place, which is the last voxel here.
@@ -436,8 +432,7 @@ TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
   std::string bytes = bytes_of_float<double>(made_.labels, 0.25);
   const double fraction = 2.75;
   std::copy_n(reinterpret_cast<const char*>(&fraction), 8, bytes.begin() + 8 * (35 + 2 * 7 + 3));
-  write_tiff(path("a.tif"), stack, cut(bytes));
-  expect_refused("a.tif", {"2.75", "(3, 2, 1)"});
+  expect_refused_of(stack, cut(bytes), {"2.75", "(3, 2, 1)"});
 }
 
 // MATLAB's logical, masks of other programs; rows end within bytes.
@@ -468,13 +463,11 @@ TEST_F(TiffVolume, ReadsNumbersOfFewerThanEightBits) {
       for (const int tile : {0, 16}) {
         SCOPED_TRACE(std::to_string(bits) + " bits, tile " + std::to_string(tile));
         stack.tile = tile;
-        write_tiff(path("a.tif"), stack, all);
-        expect_made("a.tif");
+        expect_made_of(stack, all);
       }
     }
     stack.photometric = PHOTOMETRIC_MINISWHITE;
-    write_tiff(path("a.tif"), stack, all);
-    expect_made("a.tif");
+    expect_made_of(stack, all);
     EXPECT_NE(notes("a.tif").back().find("0 as white") == std::string::npos
                   ? notes("a.tif").front().find("0 as white")
                   : 0,
@@ -487,14 +480,11 @@ TEST_F(TiffVolume, RefusesWhatMakesNoLabels) {
   stack.bits = 8;
   stack.compression = COMPRESSION_JPEG;
   stack.rows = 16;
-  write_tiff(path("a.tif"), stack, pages_of<std::uint8_t>());
-  expect_refused("a.tif", {"JPEG"});
+  expect_refused_of(stack, pages_of<std::uint8_t>(), {"JPEG"});
   stack = as();
-  write_tiff(path("a.tif"), stack, {page(1)});
-  expect_refused("a.tif", {"one image of 7 x 5"});
+  expect_refused_of(stack, {page(1)}, {"one image of 7 x 5"});
   stack.format = SAMPLEFORMAT_IEEEFP;
-  write_tiff(path("a.tif"), stack, pages());
-  expect_refused("a.tif", {"16 bits"});
+  expect_refused_of(stack, pages(), {"16 bits"});
 }
 
 // Folders from a Mac and from Windows, and what is odd in them is named.
@@ -580,16 +570,14 @@ TEST_F(TiffVolume, ReadsFoldersOfPngs) {
 TEST_F(TiffVolume, AppliesTheShiftThatImageJNotes) {
   TiffPages stack = as();
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=-32768.0\nc1=1.0\n";
-  write_tiff(path("a.tif"), stack, pages(32768));
-  expect_made("a.tif");
+  expect_made_of(stack, pages(32768));
   EXPECT_NE(notes("a.tif")[0].find("-32768"), std::string::npos);
   const std::unique_ptr<LabelVolume> grey = open_volume(path("a.tif"));
   grey->read_grey_values();
   EXPECT_EQ(grey_value(grey->next_row()[3]), static_cast<float>(made_.labels[3]));
   // A calibration that is no shift is told, and left.
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=3\nc1=0.5\n";
-  write_tiff(path("a.tif"), stack, pages());
-  expect_made("a.tif");
+  expect_made_of(stack, pages());
   EXPECT_NE(notes("a.tif")[0].find("calibration"), std::string::npos);
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=0\nc1=1\n";
   write_tiff(path("a.tif"), stack, pages());
@@ -623,8 +611,7 @@ TEST_F(TiffVolume, ReadsShapesThatEndInOneAndPagesThatWereWrittenOneByOne) {
        {R"({"shape": [3, 5, 7, 1]})", R"({"shape": [1, 3, 5, 7, 1, 1]})", R"({"shape": [5, 7]})",
         R"({"shape": [1, 5, 7]})", "ImageJ=1.11a\nimages=1\n"}) {
     stack.text = text;
-    write_tiff(path("a.tif"), stack, pages());
-    expect_made("a.tif");
+    expect_made_of(stack, pages());
   }
 }
 
@@ -639,8 +626,7 @@ TEST_F(TiffVolume, TakesThreeEqualColoursForOneNumber) {
     for (const char c : one) three += std::string(3, c);
     all.push_back(three);
   }
-  write_tiff(path("a.tif"), stack, all);
-  expect_made("a.tif");
+  expect_made_of(stack, all);
 }
 
 TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
