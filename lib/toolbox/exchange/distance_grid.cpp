@@ -36,8 +36,7 @@ using Box = Eigen::AlignedBox3d;
 
 Box box_of(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh has no faces, so there is no inside. Give a closed triangle mesh.");
+    refuse("The mesh has no faces, so there is no inside. Give a closed triangle mesh.");
   }
   Box box;
   for (const Triangle& t : mesh.triangles) {
@@ -77,22 +76,19 @@ double affordable_spacing(const Box& box, GridOptions options) {
 }
 
 void refuse_grid(const Box& box, const GridOptions& options) {
-  throw Error(ErrorCode::InvalidInput,
-              "A spacing (" + mention(grid_spacing_option) + ") of " +
-                  format_number(options.spacing) + " needs a grid of " +
-                  format_number(point_count(box, options) / 1e6, 3) +
-                  " million points, more than " + format_number(most_grid_points / 1e6) +
-                  " million. Give " + format_number(1.01 * affordable_spacing(box, options), 3) +
-                  " or more, or 0.");
+  refuse("A spacing (" + mention(grid_spacing_option) + ") of " + format_number(options.spacing) +
+         " needs a grid of " + format_number(point_count(box, options) / 1e6, 3) +
+         " million points, more than " + format_number(most_grid_points / 1e6) + " million. Give " +
+         format_number(1.01 * affordable_spacing(box, options), 3) + " or more, or 0.");
 }
 
 double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
   const Box box = box_of(mesh);
   const double volume = volume_of(mesh, execution);
   if (!(volume > 0.0)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mesh encloses no positive volume, so there is no inside. Give a closed mesh "
-                "whose faces look outward.");
+    refuse(
+        "The mesh encloses no positive volume, so there is no inside. Give a closed mesh "
+        "whose faces look outward.");
   }
   return affordable_spacing(box, {portable::cbrt(6.0 * volume / pi) / 50.0});
 }

@@ -65,22 +65,18 @@ void check_nodes_path(const std::string& path, const SimulationOptions& options)
   const std::string ending = ending_of(path);
   if (ending == ".csv" || ending == ".vtp") return;
   if (ending != ".shp") {
-    throw Error(ErrorCode::InvalidInput, "Unknown format of a node table: \"" + path +
-                                             "\". Use .csv, .vtp or .shp (Rockable).");
+    refuse("Unknown format of a node table: \"" + path + "\". Use .csv, .vtp or .shp (Rockable).");
   }
   if (options.frame.frame != Frame::Principal) {
-    throw Error(
-        ErrorCode::InvalidInput,
-        "\"" + path +
-            "\" is a Rockable shape. It must be in its principal axes: use the frame principal.");
+    refuse("\"" + path +
+           "\" is a Rockable shape. It must be in its principal axes: use the frame principal.");
   }
 }
 
 void check_grid_path(const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".npy" || ending == ".vti" || ending == ".json") return;
-  throw Error(ErrorCode::InvalidInput, "Unknown format of signed distances: \"" + path +
-                                           "\". Use .npy, .vti or .json (NetDEM).");
+  refuse("Unknown format of signed distances: \"" + path + "\". Use .npy, .vti or .json (NetDEM).");
 }
 
 std::string grid_description_path(const std::string& path) {
@@ -137,10 +133,9 @@ void check_frame_options(const FrameOptions& options) {
   require_in_range(options.scale, scale_option);
   require_in_range(options.size, size_option);
   if (options.size > 0.0 && options.scale != 1.0) {
-    throw Error(ErrorCode::InvalidInput,
-                "There is an equivalent diameter of " + format_typed(options.size) +
-                    " and a scale factor of " + format_typed(options.scale) +
-                    ", but each of them sets the size. Give one of them.");
+    refuse("There is an equivalent diameter of " + format_typed(options.size) +
+           " and a scale factor of " + format_typed(options.scale) +
+           ", but each of them sets the size. Give one of them.");
   }
 }
 

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "wscvt/base/error.h"
+#include "toolbox/volume/volume_choice.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -60,13 +60,6 @@ class FileBytes : public ByteSource {
   std::vector<char> buffer_;
   std::ifstream stream_;
 };
-
-[[noreturn]] void refuse_damaged(const std::string& path) {
-  throw Error(ErrorCode::InputOutput,
-              "\"" + path +
-                  "\" holds packed voxels that are damaged. Copy the file again, or export it "
-                  "again.");
-}
 
 /// What a step of unpacking came to.
 enum class Unpacking { GoesOn, HasEnded, IsDamaged };
@@ -140,7 +133,11 @@ class UnpackedBytes : public ByteSource {
       const Unpacking outcome = unpacker_.step();
       filled += wanted - stream.avail_out;
       if (outcome == Unpacking::HasEnded) unpacker_.restart();
-      if (outcome == Unpacking::IsDamaged) refuse_damaged(path_);
+      if (outcome == Unpacking::IsDamaged) {
+        refuse_volume(path_,
+                      "holds packed voxels that are damaged. Copy the file again, or export it "
+                      "again.");
+      }
     }
     return filled;
   }
@@ -249,8 +246,7 @@ class BytesOfNumbers : public MadeBytes {
     if (field.empty()) return false;
     const std::optional<double> number = number_in(field);
     if (!number || field.size() == longest) {
-      throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" has " + in_quotes(field) +
-                                              " instead of a voxel. Export it again.");
+      refuse_volume(path_, "has " + in_quotes(field) + " instead of a voxel. Export it again.");
     }
     made.resize(sizeof(double));
     boost::endian::endian_store<double, sizeof(double), boost::endian::order::little>(
@@ -312,9 +308,9 @@ class JoinedBytes : public ByteSource {
       const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(left_, count - filled));
       const std::size_t got = bytes_->read(bytes + filled, wanted);
       if (got < wanted) {
-        throw Error(ErrorCode::InputOutput,
-                    "\"" + paths_[next_ - 1] + "\" has fewer voxels than its part, " +
-                        std::to_string(part_) + " bytes. Copy it again, or export it again.");
+        refuse_volume(paths_[next_ - 1], "has fewer voxels than its part, " +
+                                             std::to_string(part_) +
+                                             " bytes. Copy it again, or export it again.");
       }
       filled += got;
       left_ -= got;
@@ -371,9 +367,7 @@ std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, 
   return std::make_unique<UnpackedBytes<Bunzipper>>(std::move(packed), std::move(path));
 #else
   (void)packed;
-  throw Error(ErrorCode::InputOutput,
-              "\"" + path +
-                  "\" is packed by bzip2, which this program was built without. Unpack it first.");
+  refuse_volume(path, "is packed by bzip2, which this program was built without. Unpack it first.");
 #endif
 }
 

@@ -75,10 +75,8 @@ class Census {
     const auto [place, is_new] = places_.emplace(label, labels_.size());
     if (!is_new) return place->second;
     if (labels_.size() == most_labels) {
-      throw Error(
-          ErrorCode::InvalidInput,
-          "The volume has more than " + std::to_string(most_labels) +
-              " labels: it seems to have grey values. Make labels of them by wscvt segment.");
+      refuse("The volume has more than " + std::to_string(most_labels) +
+             " labels: it seems to have grey values. Make labels of them by wscvt segment.");
     }
     LabelExtent extent;
     extent.label = label;
@@ -130,10 +128,9 @@ void GreyCheck::check(std::uint64_t fewest) const {
   if (along_x_.all < fewest || along_y_.all < fewest) return;
   const double fraction = std::min(along_x_.fraction(), along_y_.fraction());
   if (fraction <= most) return;
-  throw Error(ErrorCode::InvalidInput,
-              "These look like grey values, not labels: " + format_percent(fraction) +
-                  " of all neighbouring voxels differ. Make labels of them first: wscvt segment "
-                  "SCAN labels.nrrd.");
+  refuse("These look like grey values, not labels: " + format_percent(fraction) +
+         " of all neighbouring voxels differ. Make labels of them first: wscvt segment "
+         "SCAN labels.nrrd.");
 }
 
 bool LabelExtent::touches_border(const VoxelCounts& counts) const {

@@ -44,11 +44,10 @@ LabelGrains::LabelGrains(std::function<std::unique_ptr<LabelVolume>()> open,
     find_labels(true, execution);
   }
   if (labels_.empty()) {
-    throw Error(ErrorCode::InvalidInput,
-                "\"" + name + "\" has no label except the background, " +
-                    (std::isnan(options.background) ? std::string("nan")
-                                                    : format_number(options.background, 17)) +
-                    ". Check it, or give " + mention("background") + ".");
+    refuse("\"" + name + "\" has no label except the background, " +
+           (std::isnan(options.background) ? std::string("nan")
+                                           : format_number(options.background, 17)) +
+           ". Check it, or give " + mention("background") + ".");
   }
   for (std::size_t k = 0; k < labels_.size(); ++k) {
     if (state(labels_[k]) == LabelState::Taken) taken_.push_back(k);

@@ -21,8 +21,7 @@ void LabelVolume::number_anew(std::size_t most) {
   for (std::int64_t row = 0; row < std::int64_t{geometry_.counts[1]} * geometry_.counts[2]; ++row) {
     next_row();
     if (coding_.numbers.size() <= most) continue;
-    throw Error(ErrorCode::InvalidInput,
-                "The volume has more than " + std::to_string(most) + " labels.");
+    refuse("The volume has more than " + std::to_string(most) + " labels.");
   }
   coding_.finds_numbers = false;
   Label next = 1;

@@ -243,7 +243,7 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
 void check_voxel_size(const VolumeChoice& choice) {
   if (choice.voxel_size &&
       !(choice.voxel_size->allFinite() && choice.voxel_size->minCoeff() > 0.0)) {
-    throw Error(ErrorCode::InvalidInput, "The size of a voxel has to be above 0 along each axis.");
+    refuse("The size of a voxel has to be above 0 along each axis.");
   }
 }
 
@@ -333,7 +333,7 @@ std::unique_ptr<LabelVolume> open_array(const VolumeArray& array, const VolumeCh
     check_opened(*volume, choice, name);
     return volume;
   } catch (const Error& error) {
-    throw Error(ErrorCode::InvalidInput, error.sentence());  // no file is wrong
+    refuse(error.sentence());  // no file is wrong
   }
 }
 

@@ -45,9 +45,8 @@ class VolumeOfParts : public LabelVolume {
     JoinedNumbers joined;
     const auto begin_part = [&](Label) {
       if (joined.size() == most_parts) {
-        throw Error(ErrorCode::InvalidInput,
-                    "The volume has more than " + std::to_string(most_parts) +
-                        " parts: it seems to be noise. Smooth it before it is segmented.");
+        refuse("The volume has more than " + std::to_string(most_parts) +
+               " parts: it seems to be noise. Smooth it before it is segmented.");
       }
       return joined.add();
     };

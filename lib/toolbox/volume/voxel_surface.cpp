@@ -214,10 +214,10 @@ class FaceMaker {
     if (looks_back) std::reverse(face.begin(), face.end());
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 6;  // half-edges
     if (surface_.faces.size() == most) {
-      throw Error(ErrorCode::InvalidInput,
-                  "A label has a surface of more than 300 million faces: it seems to be the space "
-                  "between the grains. Name it by " +
-                      mention("background") + ".");
+      refuse(
+          "A label has a surface of more than 300 million faces: it seems to be the space "
+          "between the grains. Name it by " +
+          mention("background") + ".");
     }
     surface_.faces.push_back(face);
   }
@@ -343,7 +343,7 @@ void keep_largest(VoxelSurface& surface) {
 VoxelSurface voxel_surface(const std::vector<VoxelStretch>& stretches) {
   VoxelSurface surface;
   if (stretches.empty()) {
-    throw Error(ErrorCode::InvalidInput, "There are no voxels for a surface. Give at least one.");
+    refuse("There are no voxels for a surface. Give at least one.");
   }
   FaceMaker(stretches, surface).run();
   keep_largest(surface);
