@@ -66,27 +66,6 @@ constexpr Source sources[] = {
   throw Error(ErrorCode::InvalidInput, "\"" + path + "\" " + what);
 }
 
-/// The columns of a table by name.
-class Header {
- public:
-  Header(const std::string& path, std::vector<std::string> names)
-      : path_(path), names_(std::move(names)) {}
-
-  std::size_t place(std::string_view name) const {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) {
-      refuse(path_, "has no column " + std::string(name) +
-                        ", so it is not a table of a sample. Give a table that batch wrote.");
-    }
-    return static_cast<std::size_t>(found - names_.begin());
-  }
-  std::size_t size() const { return names_.size(); }
-
- private:
-  const std::string& path_;
-  std::vector<std::string> names_;
-};
-
 double number_of(const std::string& field) {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(field.data(), field.data() + field.size(), value);
@@ -251,16 +230,24 @@ SampleSummary summarise_table(const std::string& path) {
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (!reader.next(fields)) refuse(path, "is empty. Give a table that batch wrote.");
-  const Header header(path, fields);
-  const std::size_t grain = header.place("grain");
-  const std::size_t status = header.place("status");
-  const std::size_t error = header.place("error");
-  const std::size_t warnings = header.place("warnings");
+  const std::vector<std::string> header = fields;
+  const auto place_of = [&](const char* name) {
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end()) {
+      refuse(path, std::string("has no column ") + name +
+                       ", so it is not a table of a sample. Give a table that batch wrote.");
+    }
+    return static_cast<std::size_t>(found - header.begin());
+  };
+  const std::size_t grain = place_of("grain");
+  const std::size_t status = place_of("status");
+  const std::size_t error = place_of("error");
+  const std::size_t warnings = place_of("warnings");
   SampleSummary summary;
   std::vector<std::pair<std::size_t, std::optional<std::size_t>>> places;
   for (const Source& source : sources) {
-    places.emplace_back(header.place(source.column), std::nullopt);
-    if (source.divisor != nullptr) places.back().second = header.place(source.divisor);
+    places.emplace_back(place_of(source.column), std::nullopt);
+    if (source.divisor != nullptr) places.back().second = place_of(source.divisor);
     summary.distributions.push_back({source.key, source.label, source.unit, {}});
   }
   std::vector<std::pair<std::string, std::size_t>> options;
@@ -268,7 +255,7 @@ SampleSummary summarise_table(const std::string& path) {
     if (fields[k].rfind(option_prefix, 0) != 0) continue;
     options.emplace_back(fields[k].substr(std::string_view(option_prefix).size()), k);
   }
-  const std::size_t distance = header.place("rms_distance.percent_of_equivalent_radius");
+  const std::size_t distance = place_of("rms_distance.percent_of_equivalent_radius");
   while (reader.next(fields)) {
     if (fields.size() != header.size()) {
       refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +

@@ -44,14 +44,6 @@ std::pair<std::string, std::string> halves(const std::string& csv) {
   return {csv.substr(0, row), csv.substr(row)};
 }
 
-std::ifstream open(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.is_open()) {
-    fail(ErrorCode::InputOutput, path, "cannot be opened. Check that the file exists.");
-  }
-  return stream;
-}
-
 /// Returns the path, after check_writable.
 const std::string& writable(const std::string& path) {
   check_writable(path);
@@ -97,13 +89,10 @@ std::string failure_in(const std::string& record) {
 SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
     : table_(writable(path), TableUse::AppendAlone) {
-  read(header, grains);
-  if (table_.size() == 0) table_.append(header);
-}
-
-void SampleTable::read(const std::string& header, const std::vector<std::string>& grains) {
-  const std::string& path = table_.path();
-  std::ifstream stream = open(path);
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream.is_open()) {
+    fail(ErrorCode::InputOutput, path, "cannot be opened. Check that the file exists.");
+  }
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (reader.next(fields) && reader.text() != header) {
@@ -122,6 +111,7 @@ void SampleTable::read(const std::string& header, const std::vector<std::string>
     rows_.push_back({begin, failure_of(fields) != nullptr});
   }
   if (reader.is_cut()) table_.cut(reader.size());
+  if (table_.size() == 0) table_.append(header);
 }
 
 std::size_t SampleTable::failed_rows() const {

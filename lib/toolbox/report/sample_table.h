@@ -58,8 +58,6 @@ class SampleTable {
   void append(const std::string& row);
 
  private:
-  void read(const std::string& header, const std::vector<std::string>& grains);
-
   struct Row {
     std::size_t begin;  ///< byte of the file
     bool failed;
