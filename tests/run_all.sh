@@ -129,7 +129,9 @@ for step in "$@"; do
     types)
       # After release. A step of its own, because mypy is not needed elsewhere.
       tests/install_packages.sh mypy
-      tests/types.sh build/release ;;
+      # The type stub of the Python module, on code that uses it right and wrong.
+      MYPYPATH=build/release/lib/python /usr/bin/python3 -m mypy --strict --warn-unused-ignores \
+        --cache-dir build/release/mypy tests/python/typed_use.py ;;
     wheel)
       # After release; as root, for debootstrap: the roots have nothing but Python and NumPy.
       tests/install_packages.sh debootstrap patchelf binutils python3-pip python3-venv
