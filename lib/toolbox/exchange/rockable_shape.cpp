@@ -29,9 +29,9 @@ void check_frame(const MassProperties& mass, double radius) {
   const Eigen::Matrix3d& tensor = mass.inertia_tensor;
   const double off_diagonal = (tensor - Eigen::Matrix3d(tensor.diagonal().asDiagonal())).norm();
   if (mass.centroid.norm() <= 1e-6 * radius && off_diagonal <= 1e-6 * tensor.norm()) return;
-  throw Error(ErrorCode::InvalidInput,
-              "A Rockable shape has moments about the principal axes and no axes, but the grain is "
-              "in another frame. Use the principal frame.");
+  refuse(
+      "A Rockable shape has moments about the principal axes and no axes, but the grain is "
+      "in another frame. Use the principal frame.");
 }
 
 /// Returns how the vertices move if the faces move inwards by 1: the least squares over the faces
