@@ -192,6 +192,38 @@ TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
   EXPECT_NE(refusal("\xFF\xFEg\n").find("UTF-16"), std::string::npos);
 }
 
+TEST_F(GrainTableTest, KnowsWhatProgramsOnWindowsAndMacsWrite) {
+  // Latin-1; as UTF-8 it is the same.
+  const GrainTable latin = read("label,volume (\xB5m\xB3)\na,8\nb,1\n");
+  EXPECT_EQ(heading_of(latin.columns[latin.index_of("volume")]), "volume [\xC2\xB5m^3]");
+  EXPECT_NE(refusal("label,volume\ra,8\rb,1\r").find("end by CR"), std::string::npos);
+  const std::string error = refusal("label,volume\na,#DIV/0!\nb,1\n");
+  EXPECT_NE(error.find("line 2"), std::string::npos) << error;
+  EXPECT_NE(error.find("an error of a spreadsheet"), std::string::npos) << error;
+}
+
+// By the isoperimetric inequality; 4.84 for a volume of 1.
+TEST_F(GrainTableTest, RefusesLessAreaThanABallHas) {
+  const std::string sentence = refusal("grain,volume,area\na,8,24\nb,1,2\n");
+  EXPECT_NE(sentence.find("line 3: the area 2 is less than 4.836"), std::string::npos) << sentence;
+  EXPECT_EQ(read("grain,volume,area\na,8,24\nb,1,4.6\nc,1,\nd,,1\n").grains.size(), 4U);
+  // In other units it may be so.
+  EXPECT_EQ(read("grain,volume [um^3],area [mm^2]\na,8e9,24\n").grains.size(), 1U);
+}
+
+TEST_F(GrainTableTest, KnowsTheTablesOfScikitImage) {
+  const GrainTable table = read(
+      "label,area,equivalent_diameter_area,axis_major_length,axis_minor_length,feret_diameter_max,"
+      "solidity\n4,1250,13.4,20,10,21,0.9\n");
+  EXPECT_EQ(first_row(table), (std::map<std::string, double>{{"area_or_volume", 1250.0},
+                                                             {"equivalent_diameter", 13.4},
+                                                             {"axis_l_inertia", 20.0},
+                                                             {"axis_s_inertia", 10.0},
+                                                             {"feret_max", 21.0},
+                                                             {"convexity", 0.9}}));
+  EXPECT_EQ(table.grains, (std::vector<std::string>{"4"}));
+}
+
 TEST_F(GrainTableTest, RowsWithoutNamesAreNumbered) {
   const GrainTable table = read("volume,sphericity\n24,0.8\n25,0.9\n");
   EXPECT_EQ(table.grains, (std::vector<std::string>{"1", "2"}));

@@ -62,6 +62,15 @@ const std::vector<Program>& programs() {
         {"Elongation_Kong_and_Fonseca_2018", "kong_fonseca_elongation_box"},
         {"Zingg_S_over_I", "zingg_flatness_box"},
         {"Zingg_I_over_L", "zingg_elongation_box"}}},
+      // scikit-image: "area" is the volume of a body, but the area of a section.
+      {"equivalent_diameter_area",
+       {{"label", "grain"},
+        {"area", "area_or_volume"},
+        {"equivalent_diameter_area", "equivalent_diameter"},
+        {"axis_major_length", "axis_l_inertia"},
+        {"axis_minor_length", "axis_s_inertia"},
+        {"feret_diameter_max", "feret_max"},
+        {"solidity", "convexity"}}},
   };
   return all;
 }

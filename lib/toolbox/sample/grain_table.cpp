@@ -16,8 +16,10 @@
 #include "toolbox/sample/foreign_columns.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -84,6 +86,22 @@ GrainColumn column_of(std::string_view heading) {
           std::string(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)))};
 }
 
+/// Returns a text that is no UTF-8 as Latin-1, which programs write on Windows.
+std::string as_utf8(const std::string& text) {
+  if (readable(text, "\t\n\r") == text) return text;
+  std::string result;
+  for (const char byte : text) {
+    const auto code = static_cast<unsigned char>(byte);
+    if (code < 0xa0) {
+      result += byte;
+    } else {
+      result += static_cast<char>(0xc0U | code >> 6U);
+      result += static_cast<char>(0x80U | (code & 0x3fU));
+    }
+  }
+  return result;
+}
+
 /// Content of a column.
 enum class Role { Undecided, Number, Text };
 
@@ -97,6 +115,7 @@ class TableReader {
   void note_marks(std::size_t k, const std::string& field);
   void refuse_summary(const std::vector<std::string>& fields) const;
   void check_field(std::size_t k, const std::string& field, std::optional<double> number);
+  void check_area() const;
   GrainTable table();
 
   /// Counts the line breaks of the last record.
@@ -123,6 +142,8 @@ class TableReader {
   std::optional<std::size_t> name_field_;  ///< none: grains have the numbers of their rows
   std::optional<std::size_t> file_field_;
   std::optional<std::size_t> status_field_;
+  std::optional<std::size_t> volume_field_;
+  std::optional<std::size_t> area_field_;
   std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
   GrainTable table_;
   bool has_comma_ = false;  ///< a number with a decimal comma
@@ -146,6 +167,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   if (headings[0].rfind("\xFF\xFE", 0) == 0 || headings[0].rfind("\xFE\xFF", 0) == 0) {
     fail("the table is UTF-16. Save it as UTF-8.");
   }
+  for (std::string& heading : headings) heading = as_utf8(heading);
   const bool has_numbers_only =
       std::all_of(headings.begin(), headings.end(), [&](const std::string& field) {
         return !trimmed(field).empty() && field_number(field, decimal_).has_value();
@@ -166,6 +188,8 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     if (name == "grain") name_field_ = k;
     if (name == "file") file_field_ = k;
     if (name == "status") status_field_ = k;
+    if (name == "volume") volume_field_ = k;
+    if (name == "area") area_field_ = k;
   }
   if (fields_.size() == 1) {
     fail(
@@ -208,6 +232,9 @@ void TableReader::check_field(std::size_t k, const std::string& field,
     if (has_thousands(field)) fail_field(". Write numbers without marks between thousands.");
     if (is_size(fields_[k].name) || is_fraction(fields_[k].name)) {
       const std::string_view text = trimmed(field);
+      if (!text.empty() && text.front() == '#') {
+        fail_field(", an error of a spreadsheet. Correct it, or leave the field empty.");
+      }
       const std::size_t end = text.find_last_of("0123456789");
       const std::string unit(end == std::string_view::npos ? "" : trimmed(text.substr(end + 1)));
       fail_field(unit == "%" ? ". Write fractions of 1 without %."
@@ -239,6 +266,26 @@ void TableReader::check_field(std::size_t k, const std::string& field,
   if (is_fraction(fields_[k].name) && !(*number > 0.0 && *number <= 1.0 + 1e-6)) {
     fail_field(", but the value is above 0 and at most 1. Correct the row, or leave it out.");
   }
+}
+
+/// Throws if the last row has less area than a ball of its volume. Estimates from few voxels may be
+/// a little below.
+void TableReader::check_area() const {
+  if (!volume_field_ || !area_field_) return;
+  const std::vector<double>& volumes = numbers_[*volume_field_];
+  const std::vector<double>& areas = numbers_[*area_field_];
+  const auto unit = [&](std::size_t k) {
+    const std::string& text = fields_[k].unit;
+    return text.substr(0, text.find('^'));
+  };
+  if (volumes.empty() || areas.empty() || unit(*volume_field_) != unit(*area_field_)) return;
+  const double of_ball = portable::cbrt(36.0 * pi * volumes.back() * volumes.back());
+  constexpr double least = 0.7;
+  if (!(areas.back() < least * of_ball)) return;
+  fail("the area " + format_number(areas.back(), 4) + " is less than " + format_number(of_ball, 4) +
+       ", that of a ball of the volume " + format_number(volumes.back(), 4) +
+       ". No body has less. Correct the row, or rename the column if it is not the area of the "
+       "surface.");
 }
 
 /// Throws for a row that spreadsheets and ImageJ write below the grains.
@@ -284,6 +331,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
     if (!trimmed(fields[k]).empty()) roles_[k] = number ? Role::Number : Role::Text;
     numbers_[k].push_back(number.value_or(missing));
   }
+  check_area();
 }
 
 GrainTable TableReader::table() {
@@ -323,6 +371,14 @@ GrainTable TableReader::table() {
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
   }
   return std::move(table_);
+}
+
+/// Whether there is a CR, but no LF, at the beginning of a file.
+bool has_old_lines(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string head(4096, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head.find('\r') != std::string::npos && head.find('\n') == std::string::npos;
 }
 
 /// Returns the separator of the columns of a heading. Rewinds the stream.
@@ -370,7 +426,9 @@ GrainTable read_grain_table(const std::string& path) {
   TableReader table(path, separator == ',' ? '.' : ',');
   std::vector<std::string> fields;
   if (!reader.next(fields)) {
-    table.fail("the file has no table. Write a heading and a row per grain.");
+    table.fail(has_old_lines(path)
+                   ? "the lines end by CR, as on old Macs. Save the table with LF or CR LF."
+                   : "the file has no table. Write a heading and a row per grain.");
   }
   table.count_lines(reader.text());
   table.read_heading(fields);
