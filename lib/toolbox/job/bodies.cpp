@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "toolbox/job/box_tree.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
@@ -566,9 +567,16 @@ void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
   }
 }
 
+BoxTree tree_of(const std::vector<Part>& parts) {
+  std::vector<Box> boxes;
+  for (const Part& part : parts) boxes.push_back(part.box);
+  return BoxTree(std::move(boxes));
+}
+
 /// Finds for every closed part the parts that contain it. Surfaces with different names on their
 /// side of walls do not: each has all walls of its body.
 void find_holders(std::vector<Part>& parts, const Execution& execution) {
+  const BoxTree tree = tree_of(parts);
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {
     execution.report(static_cast<double>(outer) / static_cast<double>(parts.size()),
                      "Splitting the mesh");
@@ -577,7 +585,7 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
     std::unordered_set<std::uint64_t> places;
-    for (std::size_t inner = 0; inner < parts.size(); ++inner) {
+    for (const std::size_t inner : tree.meeting(holder.box)) {
       const Part& part = parts[inner];
       if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box) ||
           part.side_name != holder.side_name) {
@@ -622,17 +630,16 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
   const auto contains = [](const std::vector<std::size_t>& list, std::size_t one) {
     return std::find(list.begin(), list.end(), one) != list.end();
   };
+  const BoxTree tree = tree_of(parts);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Part& pore = parts[p];
     if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
-    for (std::size_t q = 0; q < parts.size(); ++q) {
+    for (const std::size_t q : tree.meeting(pore.box)) {
       const Part& part = parts[q];
       if (part.volume == 0.0 || part.was_inward || part.piece == pore.piece ||
-          part.side_name != pore.side_name ||
-          (part.box.low.array() > pore.box.high.array()).any() ||
-          (part.box.high.array() < pore.box.low.array()).any() || contains(part.holders, p) ||
+          part.side_name != pore.side_name || contains(part.holders, p) ||
           std::none_of(pore.holders.begin(), pore.holders.end(),
                        [&](std::size_t h) { return h != q && contains(part.holders, h); })) {
         continue;
@@ -788,18 +795,15 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
       if (inside[i] != 0) depths[k].push_back(points[i]);
     }
   }
+  const BoxTree tree(boxes);
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t outer = 0; outer < bodies.size(); ++outer) {
     execution.report(1.0, "Splitting the mesh");
     if (!bodies[outer].is_closed()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
-    for (std::size_t inner = 0; inner < bodies.size(); ++inner) {
-      if (inner == outer || depths[inner].empty() ||
-          (boxes[inner].low.array() > boxes[outer].high.array()).any() ||
-          (boxes[inner].high.array() < boxes[outer].low.array()).any()) {
-        continue;
-      }
+    for (const std::size_t inner : tree.meeting(boxes[outer])) {
+      if (inner == outer || depths[inner].empty()) continue;
       const std::size_t begin = points.size();
       points.insert(points.end(), depths[inner].begin(), depths[inner].end());
       asked.push_back({inner, begin, points.size()});
