@@ -202,6 +202,7 @@ struct Nifti {
   double more = 0.0;  ///< added to a scaled voxel
   int sform = 1;
   bool has_sizes = true;
+  double scale = 1.0;  ///< of the sizes, but not of the matrix
 
   std::string bytes() const {
     std::string head(version == 1 ? 348 : 540, '\0');
@@ -233,7 +234,8 @@ struct Nifti {
     put(version == 1 ? 72 : 14, 2, static_cast<std::uint64_t>(bits));
     const std::size_t sizes = version == 1 ? 76 : 104;
     const double pixdim[8] = {1.0, 0.5, 0.25, 2.0, 1.0, 1.0, 1.0, 1.0};
-    for (std::size_t k = 0; k < 8; ++k) put_real(sizes + k * real, has_sizes ? pixdim[k] : 0.0);
+    for (std::size_t k = 0; k < 8; ++k)
+      put_real(sizes + k * real, has_sizes ? scale * pixdim[k] : 0.0);
     if (version == 1) {
       put_real(108, 352.0);
     } else {
@@ -557,6 +559,52 @@ TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
   add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3}, bytes);
   add_text("exported_data", "axistags", R"({"axes":[)" + key("z") + "," + key("y") + "]}");
   expect_refused("a.h5", {"axistags of 2 axes", "3 dimensions"});
+}
+
+TEST_F(Hdf5Volumes, HaveTheOrderOfTheirDimensionLabels) {
+  std::string bytes;
+  for (int x = 0; x < 7; ++x) {
+    for (int y = 0; y < 5; ++y) {
+      for (int z = 0; z < 3; ++z) {
+        const std::uint32_t label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
+        bytes += test::four_bytes(label).substr(0, 2);
+      }
+    }
+  }
+  const std::vector<std::string> all_labels = {"x", "Y", "z"};
+  for (const std::size_t labelled : {std::size_t{3}, std::size_t{2}}) {
+    std::filesystem::remove(path("a.h5"));
+    add("labels", H5T_NATIVE_UINT16, {7, 5, 3}, bytes);
+    const hid_t file = H5Fopen(path("a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t set = H5Dopen2(file, "labels", H5P_DEFAULT);
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    const hsize_t count = 3;
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t id = H5Acreate2(set, "DIMENSION_LABELS", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    std::array<const char*, 3> texts = {"", "", ""};
+    for (std::size_t k = 0; k < labelled; ++k) texts[k] = all_labels[k].c_str();
+    H5Awrite(id, type, texts.data());
+    const hid_t extent = H5Screate_simple(1, &count, nullptr);
+    const hid_t size =
+        H5Acreate2(set, "resolution", H5T_NATIVE_DOUBLE, extent, H5P_DEFAULT, H5P_DEFAULT);
+    const std::array<double, 3> lengths = {1.0, 0.5, 0.25};
+    H5Awrite(size, H5T_NATIVE_DOUBLE, lengths.data());
+    for (const hid_t attribute : {id, size}) H5Aclose(attribute);
+    for (const hid_t one : {space, extent}) H5Sclose(one);
+    H5Tclose(type);
+    H5Dclose(set);
+    H5Fclose(file);
+    if (labelled == 3) {
+      expect_placed("a.h5", Vector3(1, 1, 1));
+    } else {
+      EXPECT_EQ(geometry("a.h5").counts, (VoxelCounts{3, 5, 7})) << "no label for each";
+    }
+    ASSERT_FALSE(notes("a.h5").empty());
+    EXPECT_NE(notes("a.h5")[0].find("\"resolution\" has 1, 0.5 and 0.25. It was not used"),
+              std::string::npos)
+        << notes("a.h5")[0];
+  }
 }
 
 TEST_F(Hdf5Volumes, OfDream3dHaveTheSizeOfTheirGeometry) {

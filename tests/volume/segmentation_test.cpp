@@ -479,6 +479,19 @@ TEST_F(SegmentationOfFourBalls, ALayerAtTheSurfaceIsToldAndTheAdviceWorks) {
   const std::vector<double> whole = volumes(segmented(options));
   ASSERT_EQ(whole.size(), 4U);
   for (const double volume : whole) EXPECT_NEAR(volume, 1.0, 0.04);
+  // A film that the blur nearly hides: one step by a blur of 1.9 voxels is as near as .01.
+  write_scan({70, 70, 70, 70}, 1.2, [&](const Vector3& p) {
+    double grey = 0.0;
+    for (const Vector3& middle : middles) {
+      grey += blurred_ball((p - middle).norm(), radius - 2.5, 70.0, 1.2);
+    }
+    return grey;
+  });
+  const Segmentation films = segmented();
+  ASSERT_EQ(films.steps.size(), 1U) << looks(films);
+  EXPECT_TRUE(films.steps[0].goes_on());
+  EXPECT_NEAR(films.steps[0].layer, 44.0 + 70.0, 12.0);
+  EXPECT_NE(looks(films).find("in two steps"), std::string::npos) << looks(films);
   // Plain balls have none.
   write_scan({layer, layer, layer, layer}, 0.8, nothing);
   EXPECT_TRUE(segmented().steps.empty());
@@ -551,6 +564,50 @@ TEST_F(SegmentationOfFourBalls, TheWallOfAContainerIsNoGrainAndIsTold) {
   EXPECT_EQ(segmented().wall, 0U);
   ASSERT_EQ(segmented().grains.size(), 1U);
   EXPECT_EQ(segmented().grains[0].voxels, static_cast<std::uint64_t>(ball));
+}
+
+// After smoothing, the void has 3 values and the grains too: no phases.
+TEST_F(SegmentationOfTwoMinerals, LittleNoiseMakesNoPhases) {
+  for (const bool is_dark : {false, true}) {
+    make({is_dark ? Label{110} : void_grey, is_dark ? void_grey : Label{110},
+          is_dark ? void_grey : Label{110}},
+         0);
+    std::mt19937 random(12);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    for (Label& value : made_.labels) {
+      value = static_cast<Label>(std::lround(static_cast<double>(value) + noise(random)));
+    }
+    write_made();
+    SegmentationOptions options;
+    options.dark = is_dark;
+    const Segmentation found = segmented(options);
+    EXPECT_EQ(found.grains.size(), 8U);
+    EXPECT_NEAR(found.threshold, 75.0, 2.0);
+    EXPECT_EQ(found.peaks.size(), 2U);
+  }
+}
+
+// Boxes along the axes, with faces in the middle of voxels: many voxels have one value.
+TEST_F(SegmentationOfFourBalls, FlatFacesAreNoFilm) {
+  for (const double noise : {0.0, 9.0}) {
+    made_ = MadeVolume({54, 54, 27});
+    std::mt19937 random(8);
+    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+      const int n = static_cast<int>(k);
+      const std::array<int, 3> at = {n % 54, n / 54 % 54, n / (54 * 54)};
+      double share = 1.0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double place = axis == 2 ? at[axis] : at[axis] % 27;
+        share *= std::clamp(9.6 - std::abs(place - 13.0), 0.0, 1.0);
+      }
+      made_.labels[k] = static_cast<Label>(40.0 + 140.0 * share +
+                                           (noise > 0.0 ? static_cast<double>(random() % 9) : 0.0));
+    }
+    write_made();
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.grains.size(), 4U);
+    EXPECT_TRUE(found.steps.empty()) << looks(found);
+  }
 }
 
 TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
@@ -806,6 +863,18 @@ TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {
           << fill;
       EXPECT_EQ(looks(found).find("may be cut") != std::string::npos, cuts) << looks(found);
     }
+  }
+  // One side, and slices at the end, from the middles of two and four balls on.
+  for (const bool is_side : {false, true}) {
+    std::vector<float> values(made_.labels.begin(), made_.labels.end());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (is_side ? k % 56 >= 40 : k / (56 * 52) >= 29) values[k] = 0.0F;
+    }
+    write("a.nrrd", "NRRD0004\ntype: float" + header + raw_bytes(values));
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.cut, 4U) << is_side;
+    EXPECT_EQ(found.grains.size(), 4U) << is_side;
+    EXPECT_NEAR(found.threshold, 75.0, 4.0) << is_side;
   }
   // The space between grains of a made volume is constant too, and was scanned.
   made_ = MadeVolume({40, 30, 30});

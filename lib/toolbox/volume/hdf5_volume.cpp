@@ -174,6 +174,32 @@ std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions,
   return roles;
 }
 
+/// Returns the roles of dimensions by the labels of HDF5's dimension scales; empty without them or
+/// for unknown ones.
+std::vector<int> roles_of_labels(hid_t data_set, std::size_t dimensions) {
+  constexpr const char* name = "DIMENSION_LABELS";
+  if (H5Aexists(data_set, name) <= 0) return {};
+  const Handle attribute(H5Aopen(data_set, name, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute), H5Tclose);
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tis_variable_str(type) <= 0 ||
+      H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(dimensions)) {
+    return {};
+  }
+  std::vector<char*> labels(dimensions, nullptr);
+  const Handle memory(H5Tcopy(type), H5Tclose);
+  if (H5Aread(attribute, memory, labels.data()) < 0) return {};
+  std::vector<int> roles;
+  for (char* const label : labels) {
+    const std::string text = label == nullptr ? "" : lower_case(label);
+    if (text == "x" || text == "y" || text == "z") roles.push_back(text.front() - 'x');
+    if (text == "c" || text == "t") roles.push_back(text == "c" ? -2 : -1);
+    if (label != nullptr) H5free_memory(label);
+  }
+  if (roles.size() < dimensions) roles.clear();
+  return roles;
+}
+
 /// Returns the three numbers of an attribute; nothing without them.
 std::optional<Vector3> three_numbers(hid_t object, const char* attribute) {
   if (H5Aexists(object, attribute) <= 0) return std::nullopt;
@@ -254,6 +280,7 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
     shape.roles[last - 2] = 2;
   }
   if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size(), path);
+  if (shape.roles.empty()) shape.roles = roles_of_labels(data_set, shape.counts.size());
   // Of Fiji and ilastik: z, y, x in micrometres.
   const std::optional<Vector3> size_um = three_numbers(data_set, "element_size_um");
   if (size_um) shape.voxel_size = size_um->reverse();
@@ -261,6 +288,20 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
   shape.size_source = "element_size_um";
   if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, path, shape);
   return shape;
+}
+
+/// Says which attribute may be the size of a voxel; empty: none.
+Sentence note_of_size(hid_t file, const std::string& name) {
+  const Handle data_set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  for (const char* key :
+       {"voxel_size", "voxelsize", "spacing", "resolution", "pixel_size", "scale"}) {
+    const std::optional<Vector3> found = three_numbers(data_set, key);
+    if (!found) continue;
+    return std::string("The attribute \"") + key + "\" has " + format_number((*found)[0], 6) +
+           ", " + format_number((*found)[1], 6) + " and " + format_number((*found)[2], 6) +
+           ". It was not used, because it says neither its unit nor the order of its axes.";
+  }
+  return {};
 }
 
 /// The bytes of the voxels, read slice by slice.
@@ -356,6 +397,7 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
   file_size(path);  // throws if there is no file
   std::string name;
   Sentence note;
+  Sentence size_note;
   ArrayShape shape;
   VoxelType type;
   {
@@ -388,12 +430,17 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     name = names[chosen_array(names, from_root, path)];
     shape = shape_of(file, name, path);
     type = type_of(Handle(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose)).value();
+    if (!(shape.voxel_size.minCoeff() > 0.0) && !choice.voxel_size) {
+      size_note = note_of_size(file, name);
+    }
   }
   const ShapedVolume shaped = volume_of_shape(shape, choice, path);
   std::unique_ptr<LabelVolume> volume = volume_of_bytes(
       shaped.geometry, type, {},
       [=] { return std::make_unique<Hdf5Bytes>(shaped, path, name, choice); }, path);
-  if (!note.empty()) volume->add_note(note);
+  for (const Sentence& sentence : {note, size_note}) {
+    if (!sentence.empty()) volume->add_note(sentence);
+  }
   return volume;
 }
 

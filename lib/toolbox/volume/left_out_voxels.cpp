@@ -14,9 +14,11 @@ namespace wscvt {
 
 namespace {
 
-/// The values at the corners of all slices, and whether there are voxels that are not a number.
+/// The values at the corners of all slices, if three voxels there have one, as noise seldom has,
+/// and whether there are voxels that are not a number.
 struct Corners {
   std::map<Label, std::size_t> values;
+  std::size_t all = 0;
   bool has_nan = false;
 };
 
@@ -28,8 +30,13 @@ Corners corners_of(LabelVolume& scan, const Execution& execution) {
                  corners.has_nan =
                      corners.has_nan || std::find(row.begin(), row.end(), 0) != row.end();
                  if (y != 0 && y + 1 != counts[1]) return;
-                 ++corners.values[row.front()];
-                 ++corners.values[row.back()];
+                 corners.all += 2;
+                 if (row.size() < 3) return;
+                 const std::size_t last = row.size() - 1;
+                 if (row[0] == row[1] && row[0] == row[2]) ++corners.values[row[0]];
+                 if (row[last] == row[last - 1] && row[last] == row[last - 2]) {
+                   ++corners.values[row[last]];
+                 }
                });
   return corners;
 }
@@ -61,6 +68,25 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
     for_each_neighbour(k, counts, take);
   }
   std::replace(marks.begin(), marks.end(), std::uint8_t{2}, std::uint8_t{0});
+}
+
+/// Whether most neighbours of marked voxels are marked: noise that has the value by chance is
+/// scattered.
+bool hangs_together(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
+  const auto width = static_cast<std::size_t>(counts[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  std::size_t pairs = 0;
+  std::size_t alike = 0;
+  const auto look = [&](std::size_t a, std::size_t b) {
+    pairs += marks[a] | marks[b];
+    alike += marks[a] & marks[b];
+  };
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    if (k % width > 0) look(k, k - 1);
+    if (k % slice >= width) look(k, k - width);
+    if (k >= slice) look(k, k - slice);
+  }
+  return 2 * alike > pairs;
 }
 
 /// Whether the voxels of 0 are nearly convex along each axis, and reach across the volume.
@@ -103,13 +129,12 @@ bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCou
 std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution) {
   const VoxelCounts& counts = scan.geometry().counts;
   const Corners corners = corners_of(scan, execution.part(0.0, 0.5));
-  std::size_t all = 0;
   std::pair<Label, std::size_t> most = {0, 0};
   for (const auto& [value, count] : corners.values) {
-    all += count;
     if (value != 0 && count > most.second) most = {value, count};
   }
-  const bool is_filled = 10 * most.second > 7 * all;
+  // A few slices at an end may be filled, or one side.
+  const bool is_filled = 20 * most.second > corners.all;
   if (!is_filled && !corners.has_nan) return {};
   std::vector<std::uint8_t> nan;
   std::vector<std::uint8_t> filled;
@@ -127,7 +152,7 @@ std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execut
   };
   constexpr std::size_t fewest = 200;  // of so many voxels one
   const std::size_t found = count_of(filled);
-  if (found * fewest < filled.size() || found == filled.size() ||
+  if (found * fewest < filled.size() || found == filled.size() || !hangs_together(filled, counts) ||
       !leaves_a_convex_body(filled, counts)) {
     filled.clear();
   }

@@ -161,15 +161,23 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
   return inside;
 }
 
+struct GreyCounts {
+  std::vector<std::uint64_t> all;
+  std::vector<std::uint64_t> inside;  ///< of phases
+  bool has_noise = false;             ///< the scan has more values than a mask of phases
+};
+
 /// Chooses the level of the material from the histogram of all voxels and of those inside of
 /// phases. Sets `peaks` to those of the latter.
-double level_of(const std::vector<std::uint64_t>& counts, const std::vector<std::uint64_t>& inside,
-                const SegmentationOptions& options, std::vector<GreyPeak>& peaks) {
+double level_of(const GreyCounts& found_counts, const SegmentationOptions& options,
+                std::vector<GreyPeak>& peaks) {
+  const auto& [counts, inside, has_noise] = found_counts;
   const auto is_some = [](std::uint64_t count) { return count > 0; };
   if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
     refuse("All voxels have one grey value after smoothing. Give " + mention("threshold") + ".");
   }
-  if (std::count_if(inside.begin(), inside.end(), is_some) >= 2) peaks = peaks_of(inside);
+  if (std::count_if(inside.begin(), inside.end(), is_some) >= 2)
+    peaks = peaks_of(inside, has_noise);
   const auto found = static_cast<int>(peaks.size());
   // Noise and small dense bodies lead Otsu's threshold astray, but not the peaks.
   if (found < 2 && !options.phases) return level_between_peaks(counts);
@@ -236,14 +244,11 @@ ShortGrey short_grey(LabelVolume& scan, const GreyRange& range,
   return result;
 }
 
-struct GreyCounts {
-  std::vector<std::uint64_t> all;
-  std::vector<std::uint64_t> inside;  ///< of phases
-};
-
 GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
-                     const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes) {
+                     const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes,
+                     bool has_noise) {
   GreyCounts counts;
+  counts.has_noise = has_noise;
   counts.all.assign(std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
     if (outside.empty() || outside[k] == 0) ++counts.all[grey[k]];
@@ -272,7 +277,7 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
   std::vector<std::uint16_t> smoother;
   GreyCounts found = counts;
   for (int medians = 1; medians <= most_medians; ++medians) {
-    if (peaks_of(found.inside).size() > 1) {
+    if (peaks_of(found.inside, found.has_noise).size() > 1) {
       if (medians == 1) return;
       grey = std::move(smoother);
       counts = std::move(found);
@@ -280,14 +285,43 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
       return;
     }
     // Thin grains, and those with a large pore, have no peak inside without noise either.
-    if (medians == 1 && !is_noisy(grey, counts.all, sizes) && peaks_of(counts.all).size() == 2) {
+    if (medians == 1 && !is_noisy(grey, counts.all, sizes) &&
+        peaks_of(counts.all, counts.has_noise).size() == 2) {
       counts.inside = counts.all;
       return;
     }
     if (medians == most_medians) return;
     smoother = median_of(medians == 1 ? grey : smoother, sizes, execution);
-    found = counts_of(smoother, outside, sizes);
+    found = counts_of(smoother, outside, sizes, found.has_noise);
   }
+}
+
+/// Whether most voxels near a grey value between two phases have one phase before and the other
+/// behind them along an axis: flat faces of a made volume that has no blur, and no film.
+bool are_between_phases(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
+                        double value, double first, double second) {
+  const auto width = static_cast<std::size_t>(sizes[0]);
+  const std::size_t slice = width * static_cast<std::size_t>(sizes[1]);
+  const double contrast = std::abs(second - first);
+  const auto is_near = [&](std::size_t k, double phase, double share) {
+    return std::abs(static_cast<double>(grey[k]) - phase) < share * contrast;
+  };
+  constexpr double same_value = 0.1;
+  constexpr double same_phase = 0.15;
+  std::size_t found = 0;
+  std::size_t between = 0;
+  for (std::size_t k = slice; k + slice < grey.size(); ++k) {
+    if (!is_near(k, value, same_value)) continue;
+    ++found;
+    const auto steps = {std::size_t{1}, width, slice};
+    between += std::any_of(steps.begin(), steps.end(), [&](std::size_t step) {
+      const std::size_t low = grey[k - step] < grey[k + step] ? k - step : k + step;
+      const std::size_t high = k - step + (k + step - low);
+      return is_near(low, std::min(first, second), same_phase) &&
+             is_near(high, std::max(first, second), same_phase);
+    });
+  }
+  return 2 * between > found;
 }
 
 /// Measures the blur. Returns the steps of a layer that is too thin for profiles, if there is one.
@@ -302,9 +336,9 @@ std::vector<EdgeSteps> measure_edges(const ShortGrey& scan,
   result.blur = blur_at(scan.grey, outside, sizes, {level, contrast, false, 1});
   if (peaks.size() != 2) return {};
   const std::optional<double> film = film_between(counts.all, level, contrast);
-  if (!film) return {};
   auto space = static_cast<double>(peaks[0].value);
   auto inside = static_cast<double>(peaks[1].value);
+  if (!film || are_between_phases(scan.grey, sizes, *film, space, inside)) return {};
   if (result.is_dark) std::swap(space, inside);
   return {{space, *film, inside, 0.0, 1.0}};
 }
@@ -386,14 +420,14 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
-  GreyCounts counts = counts_of(grey, left_out, sizes);
+  const bool has_noise = range.values.size() > most_phases;
+  GreyCounts counts = counts_of(grey, left_out, sizes, has_noise);
   std::vector<GreyPeak> peaks;
   std::vector<std::uint8_t> mask;
   const auto find_material = [&] {
     peaks.clear();
-    result.threshold = options.threshold
-                           ? *options.threshold
-                           : base + step * level_of(counts.all, counts.inside, options, peaks);
+    result.threshold =
+        options.threshold ? *options.threshold : base + step * level_of(counts, options, peaks);
     const double level = (result.threshold - base) / step;
     mask = level_mask(grey, left_out, sizes,
                       {level, contrast_at(counts.all, level), options.dark, result.medians},
@@ -408,7 +442,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   for (int walls = 0; walls < most_walls && leave_out_wall(mask, scan.geometry(), left_out, result,
                                                            execution.part(0.45, 0.5));
        ++walls) {
-    counts = counts_of(grey, left_out, sizes);
+    counts = counts_of(grey, left_out, sizes, has_noise);
     find_material();
   }
   for (const GreyPeak& peak : peaks) {
@@ -437,10 +471,9 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       result.steps, execution.part(0.55, 1.0));
-  constexpr double few = 0.1;  // of the surface
   const bool has_layer =
       std::any_of(result.steps.begin(), result.steps.end(),
-                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.fraction >= few; });
+                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
   if (!has_layer) result.steps.insert(result.steps.end(), thin.begin(), thin.end());
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;

@@ -68,6 +68,9 @@ struct EdgeSteps {
 
   /// The grey values go on from the void beyond the layer; otherwise they turn back.
   bool goes_on() const { return (layer > space) == (inside > layer); }
+
+  /// Enough of the surface has them to be told.
+  bool are_told() const { return fraction >= 0.1; }
 };
 
 /// Result of segment.

@@ -176,8 +176,7 @@ double median_radius(const Segmentation& segmentation) {
 bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
   bool goes_on = false;
   for (const EdgeSteps& steps : segmentation.steps) {
-    constexpr double few = 0.1;
-    if (steps.fraction < few) continue;
+    if (!steps.are_told()) continue;
     const std::string layer =
         (steps.thickness == 0.0 ? "a layer less than 2 voxels thick"
                                 : "a layer about " + format_number(steps.thickness, 2) +

@@ -64,9 +64,9 @@ ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelC
 /// which gives grey values, once or twice. Not scanned are, as far as they are connected to the
 /// border by faces:
 /// - voxels that are not a number;
-/// - voxels of one value that fills most corners of the slices, if what they leave is a convex body
-///   that reaches from one side of the volume to the opposite one, such as the cylinder of a
-///   reconstruction. Void between grains leaves no convex body.
+/// - voxels of one value that fills corners of the slices, if what they leave is a convex body that
+///   reaches from one side of the volume to the opposite one, such as the cylinder of a
+///   reconstruction, or one half. Void between grains leaves no convex body.
 std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution);
 
 /// Returns the grey value half way between the two peaks of a histogram, void and material. Otsu's
@@ -83,8 +83,9 @@ struct GreyPeak {
 };
 
 /// Returns the peaks of a histogram, ascending: each stands out from the valleys beside it by four
-/// tenths of its height, and has at least one voxel of a thousand.
-std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts);
+/// tenths of its height, and has at least one voxel of a thousand. Of up to eight values each is a
+/// peak, as in a mask of phases, but if `has_noise` not where some are next to each other.
+std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts, bool has_noise);
 
 /// Returns the value up to which a fraction of all counts lies.
 std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fraction);
