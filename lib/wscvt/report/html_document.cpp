@@ -11,7 +11,8 @@ namespace wscvt {
 
 namespace {
 
-// Figures are at least 20em wide: one column on a telephone, three in a wide window. In print, no
+// Figures are at least 20em wide: one column on a telephone, three in a wide window. One or two
+// fill its width, up to 44em each, so that their texts are as large as the page's. In print, no
 // page breaks inside a figure or row or after a heading. Three pictures fit side by side, but only
 // two drawings, because of their texts. The log's lines are wrapped to the page.
 constexpr const char* style =
@@ -24,9 +25,9 @@ constexpr const char* style =
     "th:first-child, td:first-child { text-align: left; }\n"
     "pre { overflow-x: auto; font-size: 0.85em; }\n"
     ".warning { border-left: 0.3em solid #c60; padding-left: 0.7em; }\n"
-    ".figures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20em, 100%), "
-    "1fr)); gap: 1em; }\n"
-    "figure { margin: 0; }\n"
+    ".figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20em, 100%), "
+    "1fr)); gap: 1em; margin-bottom: 1em; }\n"
+    "figure { margin: 0; max-width: 44em; }\n"
     "figure svg, figure img { width: 100%; height: auto; }\n"
     ".thumbs { display: grid; grid-template-columns: repeat(auto-fill, minmax(5em, 1fr)); gap: "
     "0.3em; max-height: 34em; overflow-y: auto; }\n"
