@@ -48,11 +48,12 @@ struct wscvt::EnumerationTable<wscvt::filter::AnyPlacement> {
   static constexpr std::string_view subject = "node placement";
   static constexpr Enumerator<Any> rows[] = {
       {Any::Series, "sh-surface", "SH surface (as published)", "on the spherical-harmonic surface"},
-      {Any::Surface, "on-surface", "on the surface", "on the scan itself"},
+      {Any::Surface, "on-surface", "on the surface", "exactly on the grain's surface"},
       {Any::Fitted, "fitted", "fitted (on the scan, volume exact)",
-       "off the scan, so that the triangles are closest to it and enclose exactly its volume"},
+       "near the grain's surface, so that the triangles are closest to it and enclose exactly its "
+       "volume"},
       {Any::Contact, "contact-fit", "contact fit (on the scan)",
-       "off the scan, for contact laws that use the deepest node"},
+       "near the grain's surface, for contact laws that use the deepest node"},
       {Any::Default, "default", "default of the method", "fitted, or the SH surface"},
   };
 };

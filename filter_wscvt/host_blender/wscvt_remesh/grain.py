@@ -10,7 +10,7 @@ WEIGHTINGS = (
     ("wscvt-c", "WSCVT-C", "Smaller cells where the surface bends"),
 )
 PLACEMENTS = (
-    ("fitted", "Fitted", "Triangles closest to the scan, exactly its volume. Nodes are off the scan"),
+    ("fitted", "Fitted", "Triangles closest to the scan, exactly its volume. Nodes are near the surface"),
     ("on-surface", "On the surface", "Nodes on the scan, for contact laws that sum over nodes"),
     ("contact-fit", "Contact fit", "Nodes for contact laws that use the deepest node"),
 )

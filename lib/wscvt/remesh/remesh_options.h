@@ -66,12 +66,13 @@ struct EnumerationTable<ScanPlacement> {
   static constexpr std::string_view subject = "node placement";
   static constexpr Enumerator<ScanPlacement> rows[] = {
       {ScanPlacement::Fitted, "fitted", "fitted (volume exact)",
-       "off the scan, so that the triangles are closest to it and enclose exactly its volume"},
+       "near the grain's surface, so that the triangles are closest to it and enclose exactly its "
+       "volume"},
       {ScanPlacement::OnSurface, "on-surface", "on the surface",
-       "on the scan itself, for contact laws that sum over nodes by area"},
+       "exactly on the grain's surface, for contact laws that sum over nodes by area"},
       {ScanPlacement::ContactFit, "contact-fit", "contact fit",
-       "off the scan, so that contact starts at the correct distance on average; for contact laws "
-       "that use the deepest node. The volume differs from the scan's"},
+       "near the grain's surface, so that contact starts at the correct distance on average; for "
+       "contact laws that use the deepest node. The volume differs from the scan's"},
   };
 };
 
@@ -121,7 +122,7 @@ struct EnumerationTable<PublishedPlacement> {
       {PublishedPlacement::Series, "sh-surface", "SH surface",
        "on the spherical-harmonic surface, without scanning noise"},
       {PublishedPlacement::Surface, "on-surface", "on the surface",
-       "on the scan itself, where the ray from the centroid leaves it"},
+       "exactly on the grain's surface, where the ray from the centroid leaves it"},
   };
 };
 
