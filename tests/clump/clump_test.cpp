@@ -309,15 +309,6 @@ TEST(Clump, SpheresApartAreTold) {
       << clump.warnings.back().text();
 }
 
-TEST(Clump, RemeshBesideIsNearer) {
-  ClumpOptions options;
-  options.sphere_count = 5;
-  options.compared_nodes = 300;
-  const ClumpResult clump = make_clump(test::lumpy(3), options, Execution(2));
-  ASSERT_TRUE(clump.remesh_contact.has_value());
-  EXPECT_LT(clump.remesh_contact->scatter, 0.3 * clump.contact.scatter);
-}
-
 TEST(Clump, RefusesOptionsOutOfRange) {
   const auto with = [](auto change) {
     ClumpOptions options;
@@ -331,8 +322,6 @@ TEST(Clump, RefusesOptionsOutOfRange) {
   EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.most_spheres = 1001; })),
                InvalidInput);
   EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.smallest_radius_percent = -1.0; })),
-               InvalidInput);
-  EXPECT_ERROR(check_clump_options(with([](ClumpOptions& o) { o.compared_nodes = 2; })),
                InvalidInput);
 }
 

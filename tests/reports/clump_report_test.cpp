@@ -24,7 +24,7 @@ namespace {
 
 using test::count_of;
 
-/// Of a grain without symmetry, off the origin, with a remesh beside it.
+/// Of a grain without symmetry, off the origin.
 const ClumpResult& shown_clump() {
   static const ClumpResult clump = [] {
     const IndexedMesh scan =
@@ -32,7 +32,6 @@ const ClumpResult& shown_clump() {
                     {-30.0, 5.0, 120.0});
     ClumpOptions options;
     options.sphere_count = 6;
-    options.compared_nodes = 150;
     ClumpResult made = make_clump(scan, options, Execution(1));
     made.warnings = {"A sentence with <signs>."};
     return made;
@@ -64,8 +63,8 @@ TEST(ClumpReport, CsvHasAHeadingForEachValue) {
   std::string row;
   ASSERT_TRUE(std::getline(lines, heading) && std::getline(lines, row));
   EXPECT_EQ(count_of(heading, ","), count_of(row, ","));
-  EXPECT_TRUE(holds(heading, "first_contact.remesh.mean_percent"));
-  // Of clumps without a remesh the columns are the same.
+  EXPECT_TRUE(holds(heading, "first_contact.mean_percent"));
+  // Of an empty clump the columns are the same.
   std::istringstream others(clump_csv(ClumpResult()));
   std::string same;
   ASSERT_TRUE(std::getline(others, same));
@@ -90,13 +89,11 @@ TEST(ClumpReport, PageShowsScanClumpDistanceAndEachTable) {
   EXPECT_EQ(page, clump_html(clump, {"/scans/<grain>.ply", "2026-11-26"}, Execution(2)));
 
   ClumpResult plain = clump;
-  plain.remesh_contact.reset();
   plain.stages.resize(1);
   plain.warnings.clear();
   const std::string less = clump_html(plain, {}, Execution(1));
   EXPECT_TRUE(holds(less, "<title>Clump with 6 spheres"));
   EXPECT_EQ(count_of(less, "<svg"), 2U);
-  EXPECT_FALSE(holds(less, "remesh of"));
   EXPECT_FALSE(holds(less, "A sentence"));
 }
 
@@ -108,7 +105,6 @@ ClumpResult numbered_clump() {
   clump.largest_distance = 0.75;  // 18.75 %
   clump.intersection_over_union = 0.875;
   clump.contact = {-1.5, 2.25};
-  clump.remesh_contact = ContactError{-0.25, 0.125};
   clump.united.error = {3.5, 4.5, 5.5};
   clump.summed.error = {6.5, 7.5, 8.5};
   clump.input.vertices = 1234;
@@ -168,10 +164,8 @@ TEST(ClumpReportNumbers, StandUnderTheirNamesInJsonAndCsv) {
       {"/largest_percent", 18.75},
       {"/intersection_over_union", 0.875},
       {"/smallest_radius", 0.03125},
-      {"/first_contact/clump/mean_percent", -1.5},
-      {"/first_contact/clump/scatter_percent", 2.25},
-      {"/first_contact/remesh/mean_percent", -0.25},
-      {"/first_contact/remesh/scatter_percent", 0.125},
+      {"/first_contact/mean_percent", -1.5},
+      {"/first_contact/scatter_percent", 2.25},
       {"/union/volume_error_percent", 3.5},
       {"/union/centroid_error_percent", 4.5},
       {"/union/inertia_error_percent", 5.5},

@@ -38,9 +38,7 @@ struct AddClumpOption {
 
   template <class Number>
   void operator()(Number& value, const NumberOption<Number>& option) {
-    const std::string letter = option.key == sphere_count_option.key     ? "-k,"
-                               : option.key == compared_nodes_option.key ? "-n,"
-                                                                         : "";
+    const std::string letter = option.key == sphere_count_option.key ? "-k," : "";
     add_number(app, letter + "--" + std::string(option.key), value, option);
   }
   void operator()(ClumpError& value) {
@@ -78,7 +76,7 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
   CLI::Option* count = app.get_option("--count");
   count->description(count->get_description() + "; with an allowed error, at most this many: 200");
   arguments.count = count;
-  for (const char* name : {"--points", "--shrink-wrap", "--max-repaired-area", "--nodes"}) {
+  for (const char* name : {"--points", "--shrink-wrap", "--max-repaired-area"}) {
     app.get_option(name)->group(finer_settings);
   }
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame)

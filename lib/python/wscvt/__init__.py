@@ -333,7 +333,6 @@ def clump(vertices, faces=None, count=None, *, output=None, **options):
         "contact" (first contact, in % of the equivalent radius).
     smallest_radius: of a sphere, in % of the equivalent radius.
     inside: keep all spheres inside the scan.
-    nodes: of a remesh whose error of first contact is compared. 0, the default: no comparison.
     points, shrink_wrap, max_repaired_area: as for remesh.
     threads: as for remesh.
     progress: as for remesh.

@@ -14,7 +14,6 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
-#include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
 #include "wscvt/repair/components.h"
@@ -191,16 +190,6 @@ void add_warnings(ClumpResult& result) {
   }
 }
 
-/// Returns the error of first contact of remeshes, if the option asks for it.
-ContactError remesh_contact(const IndexedMesh& grain, const UnitFrame& frame, int nodes,
-                            double reach, const std::vector<double>& scan,
-                            const Execution& execution) {
-  RemeshOptions options;
-  options.node_count = nodes;
-  const IndexedMesh mesh = frame.to_unit(remesh(grain, options, execution).mesh);
-  return contact_error(ContactHeights(mesh, reach, execution).distances(execution), scan);
-}
-
 /// Measures the errors of the spheres in the unit frame.
 void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const UnitFrame& frame,
              ClumpResult& result, const Execution& execution) {
@@ -211,17 +200,11 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
   result.largest_distance = frame.radius * distance.largest;
   execution.report(0.3, "Measuring the clump");
   result.intersection_over_union = intersection_over_union(unit, spheres, execution);
-  // A remesh of few nodes extends farther.
   const double reach = 1.2 * reach_of(spheres, reach_of(unit));
   execution.report(0.5, "Measuring the clump");
   const std::vector<double> scan = ContactHeights(unit, reach, execution).distances(execution);
   result.contact =
       contact_error(ContactHeights(spheres, reach, execution).distances(execution), scan);
-  if (result.options.compared_nodes > 0) {
-    result.remesh_contact =
-        remesh_contact(result.repaired_scan, frame, result.options.compared_nodes, reach, scan,
-                       execution.part(0.6, 1.0));
-  }
 }
 
 }  // namespace
@@ -232,8 +215,6 @@ void check_clump_options(const ClumpOptions& options) {
   require_valid(options.error_measure);
   require_in_range(options.most_spheres, most_spheres_option);
   require_in_range(options.smallest_radius_percent, smallest_radius_option);
-  require_in_range(options.compared_nodes, compared_nodes_option);
-  if (options.compared_nodes > 0) require_in_range(options.compared_nodes, node_count_option);
   require_in_range(options.max_repaired_area_percent, repaired_area_limit_option);
   check_shrink_wrap_options(options.shrink_wrap);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,12 +37,11 @@ struct ClumpResult {
   /// Volume of the intersection of grain and clump / volume of their union, from 60,000 points of a
   /// grid.
   double intersection_over_union = 0.0;
-  std::vector<ClumpStage> stages;              ///< error for each number of spheres
-  ContactError contact;                        ///< first contact of two such clumps
-  std::optional<ContactError> remesh_contact;  ///< of two remeshes; if asked for
-  SphereMass united;                           ///< of the union of the spheres
-  SphereMass summed;      ///< of the sum of the spheres; overlaps count repeatedly
-  MeshCheckReport input;  ///< repairs of the scan, and its measures
+  std::vector<ClumpStage> stages;  ///< error for each number of spheres
+  ContactError contact;            ///< first contact of two such clumps
+  SphereMass united;               ///< of the union of the spheres
+  SphereMass summed;               ///< of the sum of the spheres; overlaps count repeatedly
+  MeshCheckReport input;           ///< repairs of the scan, and its measures
   ShapeDescriptors scan;  ///< of the repaired scan: the mass properties that a clump should have
   IndexedMesh repaired_scan;
   IndexedMesh surface;  ///< of the union, see sphere_union_mesh

@@ -41,8 +41,6 @@ struct ClumpOptions {
   /// Smallest radius of a sphere, in % of the equivalent radius. The time step depends on it.
   double smallest_radius_percent = 0.0;
   bool inside = false;  ///< every sphere is inside the scan
-  /// Nodes of a remesh whose error of first contact is compared with the clump's; 0: no remesh.
-  int compared_nodes = 0;
   bool points = false;  ///< as RemeshOptions::points
   ShrinkWrapOptions shrink_wrap;
   double max_repaired_area_percent = MeshCheckOptions().repaired_area_limit_percent;
@@ -68,13 +66,6 @@ inline constexpr NumberOption<double> smallest_radius_option = {
     Ends::Both,        "in % of the equivalent radius"};
 inline constexpr FlagOption inside_option = {"inside", "keep every sphere inside",
                                              "the scan; it touches the scan from within"};
-inline constexpr NumberOption<int> compared_nodes_option = {
-    "nodes",
-    "number of nodes of a remesh",
-    0,
-    100000,
-    Ends::Both,
-    "the report compares this remesh's error of first contact with the clump's; 0: no remesh"};
 
 /// Calls `visitor` for every option, as for_each_option of a remesh. The scan's options (points,
 /// shrink-wrap, repairs) have the names of a remesh's options.
@@ -85,7 +76,6 @@ void for_each_clump_option(Options& options, Visitor& visitor) {
   visitor(options.error_measure);
   visitor(options.smallest_radius_percent, smallest_radius_option);
   visitor(options.inside, inside_option);
-  visitor(options.compared_nodes, compared_nodes_option);
   visitor(options.points, points_option);
   visitor(options.shrink_wrap.opening_percent, shrink_wrap_option);
   visitor(options.max_repaired_area_percent, repaired_area_limit_option);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "wscvt/base/numbers.h"
@@ -34,8 +33,6 @@ Json json_of(const SphereMass& mass) {
 }
 
 Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
-  const ContactError none = {std::numeric_limits<double>::quiet_NaN(),
-                             std::numeric_limits<double>::quiet_NaN()};
   Json stages = Json::array();
   for (const ClumpStage& stage : clump.stages) {
     stages.push_back({{"spheres", stage.spheres},
@@ -65,9 +62,7 @@ Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
           {"largest_distance", clump.largest_distance},
           {"largest_percent", percent_of_radius(clump, clump.largest_distance)},
           {"intersection_over_union", clump.intersection_over_union},
-          {"first_contact",
-           {{"clump", json_of(clump.contact)},
-            {"remesh", json_of(clump.remesh_contact.value_or(none))}}},
+          {"first_contact", json_of(clump.contact)},
           {"grain", wscvt::json_of(mass_properties(clump.scan))},
           {"union", json_of(clump.united)},
           {"sum", json_of(clump.summed)},
@@ -99,10 +94,6 @@ std::vector<std::vector<std::string>> contact_rows(const ClumpResult& clump) {
   std::vector<std::vector<std::string>> rows = {
       {"first contact, % of equivalent radius", "mean error", "scatter"},
       row("clump of " + counted_spheres(clump), clump.contact)};
-  if (clump.remesh_contact) {
-    rows.push_back(row("remesh of " + std::to_string(clump.options.compared_nodes) + " nodes",
-                       *clump.remesh_contact));
-  }
   return rows;
 }
 
