@@ -246,7 +246,18 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
   const ShapeDescriptors sphere = describe_shape(test::sphere(3), Execution(1));
   EXPECT_EQ(sphere.sdq_clipped_fraction, 0.0);
   EXPECT_EQ(sphere.sdq_half_clip, sphere.sdq);
+  // The smallest cosine of a needle 30 : 1 is 60 / 901, above the clip.
+  const IndexedMesh needle = test::transformed(test::sphere(5), Vector3(1, 1, 30).asDiagonal());
+  EXPECT_EQ(describe_shape(needle, Execution(1)).sdq_clipped_fraction, 0.0);
   EXPECT_EQ(sdq_clip_sentence("the grain", sphere), "");
+
+  // It is told from a change of 2 % on.
+  ShapeDescriptors changed = sphere;
+  changed.sdq = 0.5;
+  for (const double change : {0.0, 0.019, 0.021, 0.5}) {
+    changed.sdq_half_clip = 0.5 * (1.0 + change);
+    EXPECT_EQ(sdq_clip_sentence("the grain", changed).empty(), change < 0.02) << change;
+  }
 }
 
 }  // namespace
