@@ -44,6 +44,14 @@ TEST(MeshQuality, Cube) {
   EXPECT_NEAR(q.smallest_angle, 45.0, 1e-12);
 }
 
+TEST(MeshQuality, MeanAngleIsOverTheTriangles) {
+  // Four triangles of 1 x 1 and eight of 1 x 2.
+  const MeshQuality q = measure_quality(test::box(1, 1, 2));
+  const double narrow = std::atan(0.5) * 180.0 / test::pi;
+  EXPECT_NEAR(q.smallest_angle, narrow, 1e-12);
+  EXPECT_NEAR(q.mean_smallest_angle, (4.0 * 45.0 + 8.0 * narrow) / 12.0, 1e-12);
+}
+
 TEST(MeshQuality, NeedleAngleIsExactNearZero) {
   // A flat box: the faces of 1 x 1e-6 have a smallest angle of atan(1e-6).
   const MeshQuality q = measure_quality(test::box(1, 1, 1e-6));

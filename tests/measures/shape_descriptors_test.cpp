@@ -204,6 +204,24 @@ TEST(ShapeDescriptors, InsideOutIsRefused) {
   EXPECT_ERROR(describe(IndexedMesh()), InvalidInput);
 }
 
+TEST(ShapeDescriptors, ScaledAreThoseOfTheScaledBody) {
+  const IndexedMesh mesh = test::lumpy(3);
+  const double unit = 2.5;
+  const Vector3 centre(3.0, -1.0, 0.5);
+  ShapeDescriptors scaled = describe_shape(mesh, Execution(1));
+  scale(scaled, unit, centre);
+  const ShapeDescriptors expected = describe_shape(test::moved(mesh, unit, centre), Execution(1));
+  // Both are exact but for rounding.
+  const double rounding = 1e-11;
+  EXPECT_NEAR(scaled.volume / expected.volume, 1.0, rounding);
+  EXPECT_NEAR(scaled.area / expected.area, 1.0, rounding);
+  EXPECT_LT((scaled.centroid - expected.centroid).norm(), rounding);
+  EXPECT_LT((scaled.inertia_semi_axes - expected.inertia_semi_axes).norm(), rounding);
+  EXPECT_LT((scaled.inertia_tensor - expected.inertia_tensor).norm(),
+            rounding * expected.inertia_tensor.norm());
+  EXPECT_NEAR(scaled.sphericity, expected.sphericity, rounding);
+}
+
 TEST(ShapeDescriptors, RelativeError) {
   EXPECT_NEAR(relative_error_percent(1.1, 1.0), 10.0, 1e-12);
   EXPECT_NEAR(relative_error_percent(0.5, 1.0), -50.0, 1e-12);
