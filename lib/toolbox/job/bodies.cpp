@@ -13,7 +13,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "toolbox/job/box_tree.h"
+#include "wscvt/base/box_grid.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
@@ -567,16 +567,17 @@ void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
   }
 }
 
-BoxTree tree_of(const std::vector<Part>& parts) {
-  std::vector<Box> boxes;
-  for (const Part& part : parts) boxes.push_back(part.box);
-  return BoxTree(std::move(boxes));
+BoxGrid grid_of(const std::vector<Part>& parts) {
+  std::vector<BoxGrid::Box> boxes;
+  for (const Part& part : parts) boxes.emplace_back(part.box.low, part.box.high);
+  return BoxGrid(std::move(boxes));
 }
 
 /// Finds for every closed part the parts that contain it. Surfaces with different names on their
 /// side of walls do not: each has all walls of its body.
 void find_holders(std::vector<Part>& parts, const Execution& execution) {
-  const BoxTree tree = tree_of(parts);
+  const BoxGrid grid = grid_of(parts);
+  std::vector<std::int32_t> near;
   for (std::size_t outer = 0; outer < parts.size(); ++outer) {
     execution.report(static_cast<double>(outer) / static_cast<double>(parts.size()),
                      "Splitting the mesh");
@@ -585,7 +586,9 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
     std::unordered_set<std::uint64_t> places;
-    for (const std::size_t inner : tree.meeting(holder.box)) {
+    grid.find({holder.box.low, holder.box.high}, near);
+    for (const std::int32_t number : near) {
+      const std::size_t inner = index(number);
       const Part& part = parts[inner];
       if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box) ||
           part.side_name != holder.side_name) {
@@ -630,13 +633,16 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
   const auto contains = [](const std::vector<std::size_t>& list, std::size_t one) {
     return std::find(list.begin(), list.end(), one) != list.end();
   };
-  const BoxTree tree = tree_of(parts);
+  const BoxGrid grid = grid_of(parts);
+  std::vector<std::int32_t> near;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Part& pore = parts[p];
     if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
-    for (const std::size_t q : tree.meeting(pore.box)) {
+    grid.find({pore.box.low, pore.box.high}, near);
+    for (const std::int32_t number : near) {
+      const std::size_t q = index(number);
       const Part& part = parts[q];
       if (part.volume == 0.0 || part.was_inward || part.piece == pore.piece ||
           part.side_name != pore.side_name || contains(part.holders, p) ||
@@ -782,10 +788,11 @@ std::string count_of(std::size_t count, const std::string& one, const std::strin
 /// edge below their surfaces: walls that were smoothed one by one cross a little.
 std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution& execution) {
   constexpr std::size_t fewest = 2;
-  std::vector<Box> boxes;
+  std::vector<BoxGrid::Box> boxes;
   std::vector<std::vector<Vector3>> depths(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    boxes.push_back(box_of_faces(bodies[k].mesh, execution));
+    const Box box = box_of_faces(bodies[k].mesh, execution);
+    boxes.emplace_back(box.low, box.high);
     if (!bodies[k].is_closed()) continue;
     std::vector<Vector3> points;
     append_depths(bodies[k].mesh, points);
@@ -795,14 +802,17 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
       if (inside[i] != 0) depths[k].push_back(points[i]);
     }
   }
-  const BoxTree tree(boxes);
+  const BoxGrid grid(boxes);
+  std::vector<std::int32_t> near;
   std::set<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t outer = 0; outer < bodies.size(); ++outer) {
     execution.report(1.0, "Splitting the mesh");
     if (!bodies[outer].is_closed()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
-    for (const std::size_t inner : tree.meeting(boxes[outer])) {
+    grid.find(boxes[outer], near);
+    for (const std::int32_t number : near) {
+      const std::size_t inner = index(number);
       if (inner == outer || depths[inner].empty()) continue;
       const std::size_t begin = points.size();
       points.insert(points.end(), depths[inner].begin(), depths[inner].end());

@@ -18,44 +18,34 @@ inline Eigen::AlignedBox3d box_of(const std::array<Vector3, 3>& corners) {
           corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
 }
 
-/// Boxes with sides along the axes, in a grid of cells that finds those that another box may meet.
-/// For boxes that are asked once for many others: a tree would cost more to build.
+/// Boxes with sides along the axes, in the cells of a grid, which finds those that another box
+/// meets. Const functions are thread-safe.
 class BoxGrid {
  public:
   using Box = Eigen::AlignedBox3d;
 
-  /// `boxes`: at least one, none empty. `cells_a_side`, at least 1: along the longest side of all.
-  BoxGrid(const std::vector<Box>& boxes, int cells_a_side) {
-    // Usual are 10 cells a box. Of a grid with more, the cells have so many boxes that it is slow.
-    const std::size_t most_entries = 100 * boxes.size();
-    Box all;
-    for (const Box& box : boxes) all.extend(box);
-    low_ = all.min();
-    const double extent = all.sizes().maxCoeff();
-    cells_a_length_ = extent > 0.0 ? cells_a_side / extent : 0.0;
-    last_ = cell_at(all.max());
-    const auto visit_cells = [&](std::size_t i, const auto& visit) { for_cells(boxes[i], visit); };
-    std::size_t entries = 0;
-    for (std::size_t i = 0; i < boxes.size() && entries <= most_entries; ++i) {
-      visit_cells(i, [&](std::size_t /*cell*/) { ++entries; });
-    }
-    is_crowded_ = entries > most_entries;
-    if (is_crowded_) return;
-    const auto cells = (last_ + Cell::Ones()).cast<std::size_t>().prod();
-    boxes_ = counting_sort(boxes.size(), cells, visit_cells);
-  }
+  /// Chooses the cells: not smaller than the mean box, and not more on a surface than there are
+  /// boxes. `boxes`: finite, none empty.
+  explicit BoxGrid(std::vector<Box> boxes);
 
-  /// Whether the boxes are too large for the cells. The grid is empty then. A grid of one cell
-  /// never is.
+  /// As above, with a number of cells along the longest side of all boxes, at least 1.
+  BoxGrid(std::vector<Box> boxes, int cells_a_side);
+
+  /// Whether the boxes are too large for the cells asked for: a search would ask nearly all boxes.
+  /// The grid is empty then. Never with cells that were chosen.
   bool is_crowded() const { return is_crowded_; }
 
-  /// Calls visit(number of a box), possibly several times, for each box that `other` may meet.
+  /// Calls visit(number of a box), possibly several times, for all boxes that `other` meets, and
+  /// for some others beside it.
   template <class Visit>
   void visit(const Box& other, const Visit& visit) const {
     for_cells(other, [&](std::size_t cell) {
-      for (const auto* box = boxes_.begin(cell); box != boxes_.end(cell); ++box) visit(*box);
+      for (const auto* box = in_cells_.begin(cell); box != in_cells_.end(cell); ++box) visit(*box);
     });
   }
+
+  /// Sets `found` to the numbers of the boxes that have a point in common with `other`, ascending.
+  void find(const Box& other, std::vector<std::int32_t>& found) const;
 
  private:
   using Cell = Eigen::Array3i;
@@ -80,11 +70,15 @@ class BoxGrid {
     }
   }
 
-  Vector3 low_;
+  /// Returns whether the boxes fit into the cells.
+  bool fill(int cells_a_side);
+
+  std::vector<Box> boxes_;
+  Vector3 low_ = Vector3::Zero();
   double cells_a_length_ = 0.0;
   Cell last_ = Cell::Zero();
   bool is_crowded_ = false;
-  Groups boxes_;
+  Groups in_cells_;
 };
 
 }  // namespace wscvt

@@ -113,7 +113,7 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
     bounds.values.push_back(radius * radius);
   }
   constexpr int cells_a_side = 64;  // half or twice as many take as long
-  const BoxGrid grid(balls, cells_a_side);
+  const BoxGrid grid(std::move(balls), cells_a_side);
   if (grid.is_crowded()) return {};
   // Each part has all squares, so there are few parts.
   const std::size_t faces_a_part = std::max<std::size_t>(1 << 14, mesh.triangles.size() / 16 + 1);
