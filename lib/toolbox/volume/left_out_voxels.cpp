@@ -73,19 +73,12 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
 /// Whether most neighbours of marked voxels are marked: noise that has the value by chance is
 /// scattered.
 bool hangs_together(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
   std::size_t pairs = 0;
   std::size_t alike = 0;
-  const auto look = [&](std::size_t a, std::size_t b) {
+  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
     pairs += marks[a] | marks[b];
     alike += marks[a] & marks[b];
-  };
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    if (k % width > 0) look(k, k - 1);
-    if (k % slice >= width) look(k, k - width);
-    if (k >= slice) look(k, k - slice);
-  }
+  });
   return 2 * alike > pairs;
 }
 
