@@ -70,6 +70,15 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_NE(page.find("principal moments"), std::string::npos);
   EXPECT_EQ(page, report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
+  RemeshResult warned = shown;
+  warned.warnings = {"The first of two sentences.", "The second of two sentences."};
+  const std::string with_warnings = report_html(warned, {}, Execution(1));
+  EXPECT_EQ(count_of(with_warnings, "The first of two sentences."), 1U);
+  EXPECT_EQ(count_of(with_warnings, "The second of two sentences."), 1U);
+  EXPECT_NE(with_warnings.find("Mass at unit density", with_warnings.find("<h2>Log")),
+            std::string::npos)
+      << "the log is cut";
+
   // Points alone are triangulated; of a formula there is nothing to compare with.
   RemeshOptions points = options;
   points.points = true;

@@ -36,6 +36,9 @@ std::vector<Sentence> report_warnings(const RemeshResult& result);
 /// locale.
 std::vector<std::string> report_lines(const RemeshResult& result);
 
+/// Returns these lines without the warnings, for who shows the warnings elsewhere.
+std::vector<std::string> result_lines(const RemeshResult& result);
+
 /// Returns the lines that a person reads first: scan, repairs, node count search, remesh, errors of
 /// the paper's descriptors (volume, area, aspect ratio, sphericity, Sdq), the distances. Four lines
 /// if nothing was repaired. Without warnings.

@@ -73,8 +73,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   HtmlDocument page("Remesh" + (name.empty() ? "" : " of " + name) + " with " +
                     std::to_string(result.mesh.points.size()) + " nodes");
   page.add_paragraph(origin_sentence(origin));
-  const std::vector<Sentence> warnings = report_warnings(result);
-  for (const std::string& warning : warnings) page.add_warning(warning);
+  for (const std::string& warning : report_warnings(result)) page.add_warning(warning);
   page.add_figures(figures.pictures);
   page.add_heading("Descriptors");
   page.add_table(
@@ -98,9 +97,7 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   for_each_option(result.options, options);
   page.add_rows(options.rows(), RowKind::Typed);
   page.add_heading("Log");
-  std::vector<std::string> log = report_lines(result);
-  log.resize(log.size() - warnings.size());  // the last ones, which the page begins with
-  page.add_lines(log);
+  page.add_lines(result_lines(result));  // the page begins with the warnings
   page.add_html(figures.views);
   return page.text();
 }

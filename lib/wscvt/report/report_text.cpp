@@ -280,7 +280,7 @@ std::vector<Sentence> report_warnings(const RemeshResult& result) {
   return warnings;
 }
 
-std::vector<std::string> report_lines(const RemeshResult& result) {
+std::vector<std::string> result_lines(const RemeshResult& result) {
   std::vector<std::string> lines;
   append_input(result, lines);
   std::visit([&](const auto& report) { append_method(report, result, lines); }, result.method);
@@ -305,6 +305,11 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
            {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}))) {
     lines.push_back(std::move(text));
   }
+  return lines;
+}
+
+std::vector<std::string> report_lines(const RemeshResult& result) {
+  std::vector<std::string> lines = result_lines(result);
   for (const std::string& warning : report_warnings(result))
     lines.push_back(line("Warning", warning));
   return lines;
