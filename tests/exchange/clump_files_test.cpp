@@ -254,6 +254,12 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
       ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });
   EXPECT_NE(sentence.find("x, y, z and r"), std::string::npos) << sentence;
   EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
+  // No mesh ends in .txt, so that the table is what is told to be wrong.
+  const std::string five = file("five.txt", "0 0 0 1 7\n");
+  EXPECT_TRUE(is_clump_file(five));
+  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { read_clump(five); })
+                .find("not a table of spheres"),
+            std::string::npos);
   EXPECT_FALSE(is_clump_file(file("red.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n")));
   EXPECT_TRUE(has_sphere_heading(file("named.txt", "# clump\nx y z r\n0 0 0 1\n")));
   EXPECT_FALSE(has_sphere_heading(file("grey.txt", "0 0 0 1\n")));

@@ -24,7 +24,6 @@
 #include "toolbox/volume/open_volume.h"
 #include "toolbox/volume/volume_choice.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/text.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/grain_measures.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -72,8 +71,6 @@ void describe_mesh(const DescribeArguments& arguments) {
   const bool compares = !arguments.reference.empty();
   std::optional<double> voxel_size;
   checked([&] {
-    // No mesh has this ending.
-    if (ending_of(arguments.grain) == ".txt") read_clump(arguments.grain);
     if (!is_clump_file(arguments.grain)) check_mesh_input(arguments.grain);
     if (compares) check_mesh_input(arguments.reference);
     check_files(arguments);

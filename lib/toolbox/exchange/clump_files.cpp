@@ -417,10 +417,10 @@ bool has_sphere_heading(const std::string& path) {
 }
 
 bool is_clump_file(const std::string& path) {
-  const std::optional<SphereColumns> columns = columns_in(path);
   const std::string ending = ending_of(path);
-  return columns &&
-         (columns->has_heading || ending == ".csv" || ending == ".txt" || ending == ".multisphere");
+  if (ending == ".txt") return true;
+  const std::optional<SphereColumns> columns = columns_in(path);
+  return columns && (columns->has_heading || ending == ".csv" || ending == ".multisphere");
 }
 
 std::vector<Sphere> read_clump(const std::string& path) {
