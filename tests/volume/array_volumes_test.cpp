@@ -426,6 +426,20 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
 
 class Hdf5Volumes : public ArrayVolumes {
  protected:
+  /// The labels as they are stored in the order x, y, z, the last one fastest; 2 bytes each.
+  std::string bytes_by_x() const {
+    std::string bytes;
+    for (int x = 0; x < 7; ++x) {
+      for (int y = 0; y < 5; ++y) {
+        for (int z = 0; z < 3; ++z) {
+          const std::uint32_t label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
+          bytes += test::four_bytes(label).substr(0, 2);
+        }
+      }
+    }
+    return bytes;
+  }
+
   /// Adds a data set to the file; `chunk` 0: in one block.
   void add(const std::string& name, hid_t type, const std::vector<hsize_t>& counts,
            const std::string& bytes, hsize_t chunk = 0, bool is_matlab = false,
@@ -531,15 +545,7 @@ TEST_F(Hdf5Volumes, OfMatlabAreNotMirrored) {
 
 TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
   // Stored as x, y, z, with the channels at any place.
-  std::string bytes;
-  for (int x = 0; x < 7; ++x) {
-    for (int y = 0; y < 5; ++y) {
-      for (int z = 0; z < 3; ++z) {
-        const std::uint32_t label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
-        bytes += test::four_bytes(label).substr(0, 2);
-      }
-    }
-  }
+  const std::string bytes = bytes_by_x();
   const auto key = [](const std::string& letter) {
     return R"({"key":")" + letter + R"(","typeFlags":2,"resolution":0,"description":""})";
   };
@@ -562,15 +568,7 @@ TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
 }
 
 TEST_F(Hdf5Volumes, HaveTheOrderOfTheirDimensionLabels) {
-  std::string bytes;
-  for (int x = 0; x < 7; ++x) {
-    for (int y = 0; y < 5; ++y) {
-      for (int z = 0; z < 3; ++z) {
-        const std::uint32_t label = made_.labels[static_cast<std::size_t>((z * 5 + y) * 7 + x)];
-        bytes += test::four_bytes(label).substr(0, 2);
-      }
-    }
-  }
+  const std::string bytes = bytes_by_x();
   const std::vector<std::string> all_labels = {"x", "Y", "z"};
   for (const std::size_t labelled : {std::size_t{3}, std::size_t{2}}) {
     std::filesystem::remove(path("a.h5"));
