@@ -142,10 +142,11 @@ std::vector<Vector3> smoothed_vectors(const EditMesh& mesh, const Execution& exe
 class Evening {
  public:
   Evening(EditMesh& nodes, std::vector<std::int32_t>& places, const EqualizationSurface& surface,
-          const Execution& execution)
+          const EqualizationSteps& steps, const Execution& execution)
       : nodes_(nodes),
         places_(places),
         surface_(surface),
+        settings_(steps),
         execution_(execution),
         surface_vectors_(smoothed_vectors(surface.mesh, execution)),
         count_(nodes.points.size()),
@@ -166,10 +167,10 @@ class Evening {
     edge_ = mean_edge_length(nodes_);
   }
 
-  EqualizationReport run(int steps) {
+  EqualizationReport run() {
     EqualizationReport report;
-    for (int step = 0; step < steps; ++step) {
-      execution_.report(static_cast<double>(step) / steps, "Equalizing edge lengths");
+    for (int step = 0; step < settings_.count; ++step) {
+      execution_.report(static_cast<double>(step) / settings_.count, "Equalizing edge lengths");
       const bool flips = step < first_flips || step % steps_a_flip == 0;
       if (flips) report.flips += flip_to_delaunay(nodes_, outward_);
       plan(step > 0 ? momentum : 0.0);
@@ -256,8 +257,9 @@ class Evening {
     });
     const double density = std::sqrt(mass_density_[i]);
     // A cell of the wanted density has the mass mean * density.
-    Vector3 step = cell.moment / std::max(cell.mass, least_cell * mean * density) +
-                   share_of_last * (nodes_.points[i] - previous_[i]);
+    Vector3 step =
+        settings_.over_relaxation * cell.moment / std::max(cell.mass, least_cell * mean * density) +
+        share_of_last * (nodes_.points[i] - previous_[i]);
     step = shape.tangential(step);
     const double edge = edge_ / std::sqrt(std::max(density, 1e-3));
     const double length = step.norm();
@@ -357,6 +359,7 @@ class Evening {
   EditMesh& nodes_;
   std::vector<std::int32_t>& places_;
   const EqualizationSurface& surface_;
+  const EqualizationSteps settings_;
   const Execution& execution_;
   std::vector<Vector3> surface_vectors_;
   std::size_t count_;
@@ -375,9 +378,9 @@ class Evening {
 }  // namespace
 
 EqualizationReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
-                              const EqualizationSurface& surface, int steps,
+                              const EqualizationSurface& surface, const EqualizationSteps& steps,
                               const Execution& execution) {
-  return Evening(nodes, places, surface, execution).run(steps);
+  return Evening(nodes, places, surface, steps, execution).run();
 }
 
 std::vector<double> voronoi_areas(const EditMesh& nodes) {

@@ -15,6 +15,15 @@ struct EqualizationSurface {
   std::vector<double> density;  ///< wanted at each vertex, mean 1; empty: uniform
 };
 
+/// Settings of even_nodes.
+struct EqualizationSteps {
+  int count = 100;
+  /// Nodes move so many times as far as to the centroids of their cells, 1 to 2 (Lloyd's method
+  /// over-relaxed: Xiao 2010, master's thesis, University of South Carolina). With 2, fewer nodes
+  /// than with 1 end with another number of neighbours than six.
+  double over_relaxation = 1.0;
+};
+
 /// Counts of even_nodes.
 struct EqualizationReport {
   int steps = 0;
@@ -33,7 +42,7 @@ struct EqualizationReport {
 /// near each node, updated. Throws Error(Cancelled). The result does not depend on the number of
 /// threads.
 EqualizationReport even_nodes(EditMesh& nodes, std::vector<std::int32_t>& places,
-                              const EqualizationSurface& surface, int steps,
+                              const EqualizationSurface& surface, const EqualizationSteps& steps,
                               const Execution& execution);
 
 /// Returns the area of every node's Voronoi cell, from the nodes' own triangles. The circumcentre
