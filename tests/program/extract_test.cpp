@@ -310,14 +310,19 @@ TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
   const std::string sizes = "sizes: 70 60 120";
   bytes.replace(bytes.find(sizes), sizes.size(), "sizes: 70 60 60 2");
   test::write_bytes(folder_ / "two.nrrd", bytes);
-  expect_refused("extract",
-                 {{"two.nrrd out", 1, "2 frames"},
-                  {"two.nrrd out --time 3", 1, "2 frames, not a frame 3"},
-                  {"two.nrrd out --time 0", 2, "1 to 1000000"},
-                  {"two.nrrd out --time 2 --array x", 1, "--array"},
-                  {"two.nrrd out --time 2 --voxel-size 3ells", 2, "one of the units nm"},
-                  {"two.nrrd out --time 2 --voxel-size 3um,3mm,3um", 2, "one of the units nm"}},
-                 {"out"});
+  expect_refused(
+      "extract",
+      {{"two.nrrd out", 1, "2 frames"},
+       {"two.nrrd out --select time=3", 1, "2 frames, not a frame 3"},
+       {"two.nrrd out --select time=0", 2, "1 to 1000000"},
+       {"two.nrrd out --select time=2 --select array=x", 1, "--select array=x"},
+       {"two.nrrd out --select time", 2, "Give channel=N, time=N or array=NAME"},
+       {"two.nrrd out --select array=", 2, "Give channel=N, time=N or array=NAME"},
+       {"two.nrrd out --select layer=2", 2, "\"layer=2\""},
+       {"two.nrrd out --select time=2,channel=1", 2, "\"2,channel=1\""},
+       {"two.nrrd out --select time=2 --voxel-size 3ells", 2, "one of the units nm"},
+       {"two.nrrd out --select time=2 --voxel-size 3um,3mm,3um", 2, "one of the units nm"}},
+      {"out"});
   for (const auto& [size, unit, volume] :
        std::vector<std::tuple<std::string, std::string, double>>{{"12um", "um", 1728.0},
                                                                  {"0.1mm", "mm", 1e-3},
@@ -326,7 +331,8 @@ TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
                                                                  {"1mm,2mm,3mm", "mm", 6.0},
                                                                  {"2", "", 8.0},
                                                                  {"1e-3m", "m", 1e-9}}) {
-    ASSERT_EQ(run("extract two.nrrd out -q --time 2 --voxel-size " + size).exit_code, 0) << size;
+    ASSERT_EQ(run("extract two.nrrd out -q --select time=2 --voxel-size " + size).exit_code, 0)
+        << size;
     auto table = rows("out/labels.csv", "label");
     ASSERT_EQ(table.size(), 1U);
     EXPECT_EQ(table["3"]["unit"], unit);

@@ -373,7 +373,7 @@ TEST_F(Completion, TellsCommandsApart) {
   EXPECT_EQ(completed("wscvt he"), Words{"help"});
   EXPECT_EQ(completed("wscvt help cr"), Words{"create"});
   EXPECT_EQ(completed("wscvt remesh --frame ''"), (Words{"input", "centred", "principal"}));
-  EXPECT_EQ(completed("wscvt extract --time ''"), Words()) << "a number";
+  EXPECT_EQ(completed("wscvt extract --smoothing ''"), Words()) << "a number";
   EXPECT_EQ(completed("wscvt create s"), Words{"superellipsoid"});
   EXPECT_EQ(completed("wscvt remesh s"), Words());
   EXPECT_EQ(completed("wscvt extract --out"), Words{"--output"});

@@ -107,7 +107,7 @@ TEST_F(Segment, RefusesWrongCallsBeforeAnythingIsMade) {
                   {"scan.nrrd labels.mha --smallest 0", 2, "1 or more"},
                   {"scan.nrrd labels.mha --threshold high", 2, "\"high\""},
                   {"scan.nrrd scan.nrrd", 2, "the scan itself"},
-                  {"scan.nrrd labels.mha --channel 2", 1, "channel"},
+                  {"scan.nrrd labels.mha --select channel=2", 1, "--select channel=2"},
                   {"grain.ply labels.mha", 2, "the ending of a volume"},
                   {"nothing.nrrd labels.mha", 1, "cannot be opened"},
                   {"scan.nrrd gone/labels.mha", 1, "gone"}},

@@ -16,8 +16,8 @@ VOLUME = np.zeros((2, 2, 2), dtype=int)
 
 # Help, files and what is told: without them in memory. How long it takes.
 COMMON = {"help", "help_all", "output", "report", "quiet", "verbose", "progress", "threads"}
-# Which of the arrays in a file.
-IN_FILES = {"channel", "time", "array"}
+# Which of the volumes in a file.
+IN_FILES = {"select"}
 # Of the functions of a Remesh.
 OF_A_RESULT = {"coefficients", "node_table", "sdf", "sdf_surface", "sdf_spacing", "frame", "size", "scale"}
 

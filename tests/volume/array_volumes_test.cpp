@@ -132,7 +132,8 @@ TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
   for (const Label label : made_.labels) {
     for (std::size_t c = 0; c < 3; ++c) all += test::four_bytes(label + 200 * c).substr(0, 2);
   }
-  expect_refused_of("a.npy", npy("<u2", "False", "7, 8, 9, 3", all), {"3 channels", "--channel"});
+  expect_refused_of("a.npy", npy("<u2", "False", "7, 8, 9, 3", all),
+                    {"3 channels", "--select channel=1 to channel=3"});
   expect_made("a.npy", channel(1));
   EXPECT_EQ(labels_of("a.npy", channel(3)), labels(400));
   // With frames before: both are chosen.
@@ -512,7 +513,7 @@ TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
     expect_refused("a.h5", {"the spacing 1, 2, -4"}, array("turned"));
     expect_made("a.h5", array("/more"));
     expect_made("a.h5", array("deep/in/labels"));
-    expect_refused("a.h5", {"\"/table\"", "Correct --array"}, array("table"));
+    expect_refused("a.h5", {"\"/table\"", "Correct --select array="}, array("table"));
   }
   MadeVolume more = made_;
   for (Label& label : more.labels) label += 200;

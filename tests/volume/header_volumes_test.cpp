@@ -354,7 +354,8 @@ TEST_F(HeaderVolumes, ReadsTheChosenArrayOfAVti) {
       test::base64(with_length(grey.bytes<std::uint16_t>())) +
       "</DataArray><DataArray type=\"UInt16\" Name=\"labels\" format=\"binary\">" +
       test::base64(with_length(bytes)) + "</DataArray>";
-  expect_refused_of("a.vti", vti("", two, ""), {"2 arrays", "\"grey\"", "\"labels\"", "--array"});
+  expect_refused_of("a.vti", vti("", two, ""),
+                    {"2 arrays", "\"grey\"", "\"labels\"", "--select array=NAME"});
   expect_made("a.vti", array("labels"));
   EXPECT_EQ(labels_of("a.vti", array("grey")), labels(1000));
   expect_refused("a.vti", {"no array \"Labels\"", "\"grey\""}, array("Labels"));

@@ -116,8 +116,8 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
   for (const char* mode : {"wl", "wb", "w8"}) {
     stack.mode = mode;
     stack.text = "ImageJ=1.53\nimages=24\nchannels=2\nslices=3\nframes=4\nhyperstack=true\n";
-    expect_refused_of(stack, all, {"2 channels", "--channel"});
-    expect_refused("a.tif", {"4 frames", "--time"}, channel(1));
+    expect_refused_of(stack, all, {"2 channels", "--select channel=1 to channel=2"});
+    expect_refused("a.tif", {"4 frames", "--select time=1 to time=4"}, channel(1));
     VolumeChoice choice = channel(2);
     choice.frame = 3;
     EXPECT_EQ(labels_of("a.tif", choice), labels(2200)) << mode;
@@ -136,7 +136,7 @@ TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
   stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
   expect_made_of(stack, pages(), channel(1));
   expect_refused("a.tif", {"1 channel, not a channel 2"}, channel(2));
-  expect_refused("a.tif", {"--array"}, test::array("labels"));
+  expect_refused("a.tif", {"--select array=labels"}, test::array("labels"));
 }
 
 TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
@@ -348,7 +348,7 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   for (const std::string& one : pages(400)) all.push_back(one);
   TiffPages stack = as();
   stack.text = R"({"shape": [2, 3, 5, 7]})";
-  expect_refused_of(stack, all, {"2 frames", "--time"});
+  expect_refused_of(stack, all, {"2 frames", "--select time=1"});
   EXPECT_EQ(labels_of("a.tif", frame(2)), labels(400));
   stack.text = R"({"shape": [2, 3, 5, 7], "axes": "CZYX"})";
   write_tiff(path("a.tif"), stack, all);

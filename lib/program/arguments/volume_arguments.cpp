@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "program/call/command.h"
 #include "program/terminal/work.h"
@@ -47,6 +46,23 @@ void read_voxel_size(std::string_view text, VolumeChoice& choice) {
   choice.unit = unit;
 }
 
+/// "channel=2", "time=12" or "array=labels".
+void read_selection(std::string_view text, VolumeChoice& choice) {
+  const std::size_t end = text.find('=');
+  const std::string name = lower_case(text.substr(0, end));
+  const std::string_view value =
+      end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  if (name == "channel" && !value.empty()) {
+    choice.channel = from_typed(value, channel_option);
+  } else if (name == "time" && !value.empty()) {
+    choice.frame = from_typed(value, frame_option);
+  } else if (name == "array" && !value.empty()) {
+    choice.array = std::string(value);
+  } else {
+    refuse("The selection is \"" + std::string(text) + "\". Give channel=N, time=N or array=NAME.");
+  }
+}
+
 std::string name_of(std::string_view key) { return "--" + std::string(key); }
 
 }  // namespace
@@ -58,19 +74,12 @@ void add_choice_arguments(CLI::App& app, VolumeChoice& choice, const std::string
                     ", with its unit: 12um. Default: the size in the volume file, or 1")
       ->type_name("SIZE")
       ->group(heading);
-  const auto add_place = [&](std::optional<std::int64_t>& place,
-                             const NumberOption<std::int64_t>& option) {
-    add_typed(app, name_of(option.key),
-              [&](std::string_view text) { place = from_typed(text, option); })
-        ->description(capitalised(option.subject) + ", from 1")
-        ->type_name("N")
-        ->group(heading);
-  };
-  add_place(choice.channel, channel_option);
-  add_place(choice.frame, frame_option);
-  add_typed(app, "--array", [&choice](std::string_view text) { choice.array = std::string(text); })
-      ->description("Array, or path of the data set, of a file that has several")
-      ->type_name("NAME")
+  add_typed(app, "--select", [&choice](std::string_view text) { read_selection(text, choice); })
+      ->description(
+          "One volume of a file that has several: channel=N or time=N (a frame), from 1, or "
+          "array=NAME (also the path of a data set). May be given more than once")
+      ->type_name("NAME=VALUE")
+      ->trigger_on_parse()
       ->group(heading);
 }
 

@@ -190,8 +190,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
   add_shard_argument(app, arguments.shard);
   add_threads_argument(app, arguments.threads);
   add_quiet_argument(app, arguments.quiet);
-  for (const char* name : {"--smoothing", "--background", "--at-border", "--channel", "--time",
-                           "--array", "--shard", "--threads", "--quiet"}) {
+  for (const char* name : {"--smoothing", "--background", "--at-border", "--select", "--shard",
+                           "--threads", "--quiet"}) {
     app.get_option(name)->group(finer_settings);
   }
   return app;

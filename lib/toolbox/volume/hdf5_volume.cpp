@@ -424,7 +424,8 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     }
     if (choice.array.empty() && names.size() > 1 && labels.size() == 1) {
       note = "The array \"" + labels.front() + "\" was read, one of " +
-             std::to_string(names.size()) + ". Choose another by " + mention("array") + ".";
+             std::to_string(names.size()) + ". Choose another by " +
+             mention("select", "array=NAME") + ".";
       from_root.array = labels.front();
     }
     name = names[chosen_array(names, from_root, path)];

@@ -45,10 +45,9 @@ inline constexpr FlagOption at_border_option = {
 inline constexpr FlagOption parts_option = {"parts", "make each part of a label a grain",
                                             "with a new number; faces of voxels connect a part. In "
                                             "a batch, also make each body of a mesh a grain"};
-inline constexpr NumberOption<std::int64_t> channel_option = {
-    "channel", "channel of a file that has several", 1, 1000000};
-inline constexpr NumberOption<std::int64_t> frame_option = {
-    "time", "point in time (frame) of a file that has several", 1, 1000000};
+inline constexpr NumberOption<std::int64_t> channel_option = {"channel", "channel", 1, 1000000};
+inline constexpr NumberOption<std::int64_t> frame_option = {"time", "point in time (frame)", 1,
+                                                            1000000};
 inline constexpr NumberOption<double> voxel_size_option = {"voxel-size", "size of a voxel", 0.0,
                                                            std::numeric_limits<double>::infinity(),
                                                            Ends::NotMinimum};

@@ -264,7 +264,8 @@ void check_opened(LabelVolume& volume, const VolumeChoice& choice, const std::st
 
 void refuse_array_choice(const VolumeChoice& choice, const std::string& path) {
   if (choice.array.empty()) return;
-  refuse_volume(path, "has a format with only one array. Leave " + mention("array") + " out.");
+  refuse_volume(path, "has a format with only one array. Leave " +
+                          mention("select", "array=" + choice.array) + " out.");
 }
 
 void require_spacing(const Vector3& spacing, const VolumeChoice& choice, const std::string& path) {

@@ -94,8 +94,8 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
   if (count == 0 || (!(range.least < range.largest) && !range.has_nan)) {
     refuse(count == 0 ? "The volume has no number."
                       : "All voxels of the volume are " + format_number(range.least) +
-                            ": there is nothing to separate. Check the channel, the frame or the "
-                            "array.");
+                            ": there is nothing to separate. If the file has several volumes, " +
+                            "choose one by " + mention("select") + ".");
   }
   range.equal_neighbours = static_cast<double>(equal) / static_cast<double>(count);
   std::sort(sample.begin(), sample.end());

@@ -53,17 +53,19 @@ std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
                           const std::string& path) {
   const bool is_channel = axis.kind == AxisKind::Channel;
   const std::string name = is_channel ? "channel" : "frame";
-  const Sentence option = mention(is_channel ? "channel" : "time");
+  const std::string option = is_channel ? "channel=" : "time=";
   const std::optional<std::int64_t>& chosen = is_channel ? choice.channel : choice.frame;
   const std::string has = "has " + std::to_string(axis.count) + " " + name;
   if (!chosen) {
     if (axis.count == 1) return 0;
-    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by " + option +
-                            ", from 1 to " + std::to_string(axis.count) + ".");
+    refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by " +
+                            mention("select", option + "1") + " to " + option +
+                            std::to_string(axis.count) + ".");
   }
   if (*chosen < 1 || *chosen > axis.count) {
     refuse_volume(path, has + (axis.count == 1 ? "" : "s") + ", not a " + name + " " +
-                            std::to_string(*chosen) + ". Correct " + option + ".");
+                            std::to_string(*chosen) + ". Correct " +
+                            mention("select", option + std::to_string(*chosen)) + ".");
   }
   return *chosen - 1;
 }
@@ -79,12 +81,13 @@ std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoi
   if (choice.array.empty()) {
     if (names.size() == 1) return 0;
     refuse_volume(path, "has " + std::to_string(names.size()) + " arrays: " + all +
-                            ". Choose the array of labels by " + mention("array", "NAME") + ".");
+                            ". Choose the array of labels by " + mention("select", "array=NAME") +
+                            ".");
   }
   const auto found = std::find(names.begin(), names.end(), choice.array);
   if (found == names.end()) {
     refuse_volume(path, "has no array " + in_quotes(choice.array) + ". It has " + all +
-                            ". Correct " + mention("array") + ".");
+                            ". Correct " + mention("select", "array=" + choice.array) + ".");
   }
   if (std::find(found + 1, names.end(), choice.array) != names.end()) {
     refuse_volume(path, "has two arrays " + in_quotes(choice.array) +
