@@ -48,9 +48,9 @@ std::string shown_line(const LogLine& line);
 std::string shown_sentence(const std::string& sentence);
 
 /// Returns a sentence in the words of MeshLab's window. An option becomes the label of its
-/// parameter, with its value as the dialog shows it, or "wscvt --handles" if only the program has
-/// it. A parameter of a script ("Parameter ReportFile") gets its label, "Parameter \"Report file\"
-/// (ReportFile)".
+/// parameter, with its value as the dialog shows it, or "wscvt --shrink-wrap" if only the program
+/// has it. A parameter of a script ("Parameter ReportFile") gets its label, "Parameter \"Report
+/// file\" (ReportFile)".
 std::string shown_words(const Sentence& sentence);
 
 }  // namespace wscvt::filter

@@ -44,11 +44,11 @@ TEST(Sentence, NamesOptionsByTheirTables) {
 
 TEST(Sentence, OfAnErrorKeepsItsOptions) {
   try {
-    refuse("Use " + mention("handles", "cut") + ".");
+    refuse("Use " + mention("placement", "fitted") + ".");
   } catch (const Error& error) {
-    EXPECT_STREQ(error.what(), "Use --handles cut.");
+    EXPECT_STREQ(error.what(), "Use --placement fitted.");
     const Error again(error.code(), "scan.ply: " + error.sentence());
-    EXPECT_EQ(again.sentence().in(in_brackets), "scan.ply: Use <handles|cut>.");
+    EXPECT_EQ(again.sentence().in(in_brackets), "scan.ply: Use <placement|fitted>.");
   }
 }
 

@@ -878,7 +878,7 @@ TEST(Filter, SentencesNameWhatIsOnTheScreen) {
   EXPECT_EQ(shown(mention(PublishedPlacement::Surface)), "\"Node placement: On the surface\"");
   // Options that only the program has.
   EXPECT_EQ(shown("use " + mention("shrink-wrap", "5") + " and"), "use wscvt --shrink-wrap 5 and");
-  EXPECT_EQ(shown("(" + mention(HandleAction::Keep) + ")."), "(wscvt --handles keep).");
+  EXPECT_EQ(shown("(" + mention("max-handle-loop") + ")."), "(wscvt --max-handle-loop).");
   // Parameters of scripts.
   EXPECT_EQ(shown("Parameter ReportFile is 'x'"), "Parameter \"Report file\" (ReportFile) is 'x'");
   EXPECT_EQ(shown("Parameters ReportFile and CoefficientsFile both name 'x'"),

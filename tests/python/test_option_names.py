@@ -18,6 +18,8 @@ VOLUME = np.zeros((2, 2, 2), dtype=int)
 COMMON = {"help", "help_all", "output", "report", "quiet", "verbose", "progress", "threads"}
 # Which of the volumes in a file.
 IN_FILES = {"select"}
+# --max-handle-loop 0 keeps all handles; only a library's user refuses them.
+OF_HANDLES = {"handles"}
 # Of the functions of a Remesh.
 OF_A_RESULT = {"coefficients", "node_table", "sdf", "sdf_surface", "sdf_spacing", "frame", "size", "scale"}
 
@@ -30,10 +32,12 @@ class Names:
 
 
 NAMES = {
-    "remesh": Names(lambda **o: wscvt.remesh(*GRAIN, **o), "remesh", {"vertices", "faces", "source", "keep_scan"},
+    "remesh": Names(lambda **o: wscvt.remesh(*GRAIN, **o), "remesh",
+                    {"vertices", "faces", "source", "keep_scan"} | OF_HANDLES,
                     OF_A_RESULT | {"tetrahedra", "edge_length"}),
     "create": Names(lambda **o: wscvt.create("ellipsoid", **o), "create", {"surface", "coefficients_file"}),
-    "batch": Names(lambda **o: wscvt.batch("scans", output="no", **o), "batch", {"scans", "keep_scan"}, IN_FILES),
+    "batch": Names(lambda **o: wscvt.batch("scans", output="no", **o), "batch", {"scans", "keep_scan"} | OF_HANDLES,
+                   IN_FILES),
     "segment": Names(lambda **o: wscvt.segment(VOLUME, **o), "segment", {"scan"}, IN_FILES),
     "extract": Names(lambda **o: wscvt.extract(VOLUME, **o), "extract", {"labels"},
                      IN_FILES | {"parts", "separate", "describe", "tetrahedra", "format", "shard"}),
@@ -48,7 +52,7 @@ NAMES = {
                   {"templates", "format", "sizes", "shard", "descriptors"}),
     "clump": Names(lambda **o: wscvt.clump(*GRAIN, **o), "clump", {"vertices", "faces"}, {"engine", "sizes"}),
     # "faces" is the number of a part's.
-    "convex": Names(lambda **o: wscvt.convex(*GRAIN, **o), "convex", (), {"engine", "sizes"}),
+    "convex": Names(lambda **o: wscvt.convex(*GRAIN, **o), "convex", OF_HANDLES, {"engine", "sizes"}),
     "fragment": Names(lambda **o: wscvt.fragment(*GRAIN, **o), "fragment", {"vertices", "faces", "volumes"},
                       {"sizes", "format", "density", "tetrahedra"}),
 }

@@ -187,11 +187,16 @@ TEST(OnScan, HandlesAreKeptOrRefusedWhereAskedFor) {
   const IndexedMesh drilled = test::ball_with_a_tunnel();
   OnScanOptions on_scan;
   on_scan.handles.action = HandleAction::Keep;
-  const RemeshResult kept = remesh(drilled, options_of(500, on_scan), Execution(1));
-  expect_valid(kept, 500, 1, "kept");
-  EXPECT_EQ(report_of(kept).handles.kept, 1);
-  EXPECT_TRUE(report_of(kept).handles.cut.empty());
-  EXPECT_TRUE(says(kept.warnings, "has 1 handle"));
+  OnScanOptions without_limit;
+  without_limit.handles.length_limit = 0.0;
+  for (const OnScanOptions& options : {on_scan, without_limit}) {
+    const RemeshResult kept = remesh(drilled, options_of(500, options), Execution(1));
+    expect_valid(kept, 500, 1, "kept");
+    EXPECT_EQ(report_of(kept).handles.kept, 1);
+    EXPECT_TRUE(report_of(kept).handles.cut.empty());
+    EXPECT_TRUE(says(kept.warnings, "has 1 handle"));
+    EXPECT_TRUE(says(report_lines(kept), "1 kept"));
+  }
   on_scan.handles.action = HandleAction::Refuse;
   const std::string sentence = test::refusal(
       ErrorCode::InvalidInput, [&] { remesh(drilled, options_of(500, on_scan), Execution(1)); });

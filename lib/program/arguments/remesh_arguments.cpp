@@ -94,6 +94,8 @@ class AddArgument {
   void operator()(const Number& value, const NumberOption<Number>& option) {
     add(option.key, help_of(value, option), "N");
   }
+  /// --max-handle-loop says it too: 0 keeps all handles.
+  void operator()(const HandleAction& /*value*/) {}
   template <class Enumeration>
   void operator()(const Enumeration& value) {
     add(EnumerationTable<Enumeration>::key, help_of(value), "NAME");

@@ -159,8 +159,8 @@ int fewest_nodes(std::size_t genus) {
         " were tried and are enough for them. Use that number or more; a thin grain may need more.";
   } else {
     text += " Up to " + std::to_string(most_tried_times * count) +
-            " were tried and are not enough. Use more, or let the handles be cut: " +
-            mention("handles", "cut") + ", with a larger " + mention("max-handle-loop") + ".";
+            " were tried and are not enough. Use more, or cut the handles by a larger " +
+            mention("max-handle-loop") + ".";
   }
   refuse(text);
 }

@@ -45,7 +45,7 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
                     " (tunnels through the grain), but the options do not allow handles. Use " +
                     mention(HandleAction::Cut) + " or " + mention(HandleAction::Keep) + ".");
   }
-  if (options.handles.action == HandleAction::Cut) {
+  if (options.handles.action == HandleAction::Cut && options.handles.length_limit > 0.0) {
     return cut_handles(scan, options.handles, execution);
   }
   HandleReport report;

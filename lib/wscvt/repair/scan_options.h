@@ -143,9 +143,9 @@ struct EnumerationTable<HandleAction> {
 /// Options that decide which handles are cut.
 struct HandleOptions {
   HandleAction action = HandleAction::Cut;
-  /// Longest loop along which a handle is cut, in equivalent radii; >= 0. Scanner noise makes
-  /// handles of a few voxels, up to half a radius on a rough scan. A ring, with a real hole, has no
-  /// loop below 0.7 radii, unless its tube is 150 times thinner than the ring is wide.
+  /// Longest loop along which a handle is cut, in equivalent radii; >= 0; 0 keeps all. Scanner
+  /// noise makes handles of a few voxels, up to half a radius on a rough scan. A ring, with a real
+  /// hole, has no loop below 0.7 radii, unless its tube is 150 times thinner than the ring is wide.
   double length_limit = 0.7;
 };
 
@@ -160,7 +160,7 @@ inline constexpr NumberOption<double> max_handle_loop_option{
     0.0,
     std::numeric_limits<double>::infinity(),
     Ends::Both,
-    "in equivalent radii. Handles with a longer loop are real and are kept"};
+    "in equivalent radii. Handles with a longer loop are real and are kept; 0 keeps all"};
 
 /// Loop along which a handle is cut.
 struct CutHandle {

@@ -51,7 +51,8 @@ class OptionsJson {
   Json options_ = Json::object();
 };
 
-/// Every option with the name and value of the command line.
+/// Every option with the name and value of the command line. Options of the other method, and
+/// HandleAction::Cut, are null.
 Json json_of(const RemeshOptions& options);
 
 /// Returns the value of each descriptor under its key.

@@ -26,6 +26,10 @@ class OptionRows {
   void operator()(const bool& value, const FlagOption& option) {
     add(option.key, value ? "true" : "false", option.subject);
   }
+  /// The usual treatment is no option of the program.
+  void operator()(const HandleAction& value) {
+    if (value != HandleAction::Cut) operator()<HandleAction>(value);
+  }
   template <class Enumeration>
   void operator()(const Enumeration& value) {
     using Table = EnumerationTable<Enumeration>;

@@ -214,6 +214,11 @@ Json json_of(const RemeshOptions& options) {
   OptionsJson values;
   for_each_option(options, values);
   json.update(values.take());
+  // The usual treatment is no option of the program.
+  const auto* of_scan = std::get_if<OnScanOptions>(&options.method);
+  if (of_scan != nullptr && of_scan->handles.action == HandleAction::Cut) {
+    json[std::string(EnumerationTable<HandleAction>::key)] = nullptr;
+  }
   return json;
 }
 
