@@ -246,6 +246,7 @@ RemeshOptions options_of(const py::dict& given, const std::string& function) {
   ReadOptions read(given, function);
   for_each_option(options, read);
   read.finish();
+  if (given.contains("nodes")) limit_search_to_given_nodes(options);
   return options;
 }
 
@@ -286,6 +287,10 @@ void bind_options(py::module_& module) {
     for_each_method_option(published, help);
     help.end_methods();
     for_each_common_option(options, help);
+    if (remeshed == Remeshed::Parts) {
+      help.lines_.attr("pop")(std::string(node_count_option.key));
+      help(options.node_count, convex_nodes_option);
+    }
     return help.lines_;
   });
   module.def("_choices", [] {

@@ -40,7 +40,6 @@ const std::vector<OptionCase>& option_cases() {
       {"method", "as-published", "paper", "on-scan or as-published"},
       {"max-error", 30.0, "-1", "from 0 to 100"},
       {"error-measure", "area", "4", "inertia"},
-      {"max-nodes", 500, "3", "from 4 to"},
       {"sampling", "fibonacci", "fibonaci", "equal-angle", published},
       {"weighting", "wscvt-c", "error-adaptive", "wscvt-d with --edge-ratio 1.4"},
       {"alpha", -0.5, "3.5", "from -3 to 3"},
@@ -159,8 +158,7 @@ TEST_F(ProgramOptions, WithoutAnEffectAreTold) {
   for (const auto& [option, needed, used] :
        {std::tuple("--alpha=2", "--weighting=wscvt-c", "-w wscvt-c"),
         {"--contact-radius=1.3", "--placement=contact-fit", "-p contact-fit"},
-        {"--error-measure=area", "--max-error", "--max-error 30"},
-        {"--max-nodes=500", "--max-error", "--max-error 30"}}) {
+        {"--error-measure=area", "--max-error", "--max-error 30"}}) {
     SCOPED_TRACE(option);
     const std::string name = std::string(option).substr(0, std::string(option).find('='));
     const Outcome idle = run(call + option);
@@ -180,6 +178,23 @@ TEST_F(ProgramOptions, WithoutAnEffectAreTold) {
     EXPECT_NE(outcome.errors.find(std::string(option) + " requires " + file), std::string::npos)
         << outcome.errors;
   }
+}
+
+TEST_F(ProgramOptions, WithAnAllowedErrorTheNumberOfNodesIsTheLimit) {
+  const Outcome missed = run("scan.ply missed.ply -d 6 --max-error 0.001 -n 80");
+  EXPECT_EQ(missed.exit_code, 0);
+  EXPECT_NE(missed.errors.find("No number of nodes up to 80 has"), std::string::npos)
+      << missed.errors;
+  EXPECT_NE(missed.errors.find("a larger --nodes, or a larger --max-error"), std::string::npos);
+  EXPECT_EQ(read_mesh(path("missed.ply")).points.size(), 80U);
+  ASSERT_EQ(run("scan.ply met.ply -q -d 6 -n 1500 --max-error 5").exit_code, 0);
+  EXPECT_LT(read_mesh(path("met.ply")).points.size(), 200U);
+  // The help tells what holds without a number.
+  const std::string help = run("remesh --help").output;
+  const std::string words = "at most this number, or " +
+                            std::to_string(ErrorTarget().largest_node_count) + " if none is given";
+  EXPECT_NE(std::regex_replace(help, std::regex("\\s+"), " ").find(words), std::string::npos)
+      << help;
 }
 
 TEST_F(ProgramOptions, TakeBackWhatAReportPrints) {
@@ -348,8 +363,7 @@ TEST_F(Completion, KnowsCommandsOptionsAndChoices) {
   EXPECT_EQ(completed("wscvt c"), (Words{"clump", "convex", "create"}));
   EXPECT_EQ(completed("wscvt --v"), Words{"--version"});
   EXPECT_EQ(completed("wscvt remesh a.ply --max-"),
-            (Words{"--max-error", "--max-handle-loop", "--max-nodes", "--max-overhang",
-                   "--max-repaired-area"}));
+            (Words{"--max-error", "--max-handle-loop", "--max-overhang", "--max-repaired-area"}));
   EXPECT_EQ(completed("wscvt a.ply b.ply --edge-r"), Words{"--edge-ratio"});
   EXPECT_EQ(completed("wscvt batch --sha"), Words{"--shard"});
   EXPECT_EQ(completed("wscvt describe a.ply --ref"), Words());

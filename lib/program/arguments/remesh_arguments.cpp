@@ -47,7 +47,6 @@ constexpr Dependent dependents[] = {
     {curvature_alpha_option.key, EnumerationTable<CellWeighting>::key, "wscvt-c"},
     {contact_radius_option.key, EnumerationTable<ScanPlacement>::key, "contact-fit"},
     {EnumerationTable<ErrorMeasure>::key, error_target_option.key, ""},
-    {largest_node_count_option.key, error_target_option.key, ""},
 };
 
 /// Tells options without an effect. They are no error: a call may have all options of a report.

@@ -40,7 +40,6 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
        {"scan.ply -k 8 -o parts.obj", "scan.ply -k 4 -o grain.urdf -o grain.xml --density 2650",
         "scan.ply -k 1 --faces 60 -o hull.obj --report hull.html",
         "scans -k 4 --faces 60 -o bodies --size 0.02 --engine mujoco"},
-       "The cuts are chosen on a remesh of 500 nodes.\n"
        "The parts are hulls of pieces of the scan, scaled together so that they keep the grain's "
        "volume.",
        true,
@@ -62,6 +61,8 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
   add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option);
   add_remesh_arguments(app, arguments.job.remesh, Remeshed::Parts);
+  app.get_option("--nodes")->description(
+      help_of(arguments.job.remesh.node_count, convex_nodes_option));
   add_common_arguments(app, arguments.common);
   for (const char* name : {"--frame", "--scale", "--threads"})
     app.get_option(name)->group(finer_settings);

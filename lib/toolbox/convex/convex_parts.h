@@ -22,6 +22,13 @@ struct ConvexOptions {
 
 /// Default number of nodes of the remesh on which the cuts are chosen. Fewer nodes take less time.
 inline constexpr int convex_node_count = 500;
+inline constexpr NumberOption<int> convex_nodes_option = {
+    "nodes",
+    "number of nodes",
+    node_count_option.minimum,
+    node_count_option.maximum,
+    Ends::Both,
+    "of the remesh on which the cuts are chosen"};
 
 inline constexpr NumberOption<int> convex_parts_option = {
     "count", "number of parts", 1, 1000, Ends::Both, "at most this many convex parts"};

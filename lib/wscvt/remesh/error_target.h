@@ -45,14 +45,6 @@ inline constexpr NumberOption<double> error_target_option = {
     "max-error", "allowed error in %",
     0.0,         100.0,
     Ends::Both,  "search for few nodes with at most this error; 0: no search"};
-inline constexpr NumberOption<int> largest_node_count_option = {
-    "max-nodes",
-    "max. number of nodes to try",
-    node_count_option.minimum,
-    node_count_option.maximum,
-    Ends::Both,
-    "in the search for the allowed error"};
-
 /// One number of nodes that was tried.
 struct NodeCountTrial {
   int node_count = 0;

@@ -57,6 +57,7 @@ bool is_option_of(std::string_view key, Remeshed remeshed) {
 void check_options(const RemeshOptions& options) {
   CheckOption check;
   for_each_option(options, check);
+  require_in_range(options.target.largest_node_count, node_count_option);
   check_shrink_wrap_options(options.shrink_wrap);
   const auto* published = std::get_if<AsPublishedOptions>(&options.method);
   if (published != nullptr && options.target.percent > 0.0 &&
@@ -187,10 +188,17 @@ Sentence refusal_of_value(std::string_view key, std::string_view value, Method m
          ", but the method is " + key_of(method) + ".";
 }
 
+void limit_search_to_given_nodes(RemeshOptions& options) {
+  if (options.target.percent == 0.0) return;
+  options.target.largest_node_count = options.node_count;
+  options.node_count = std::min(options.node_count, RemeshOptions().node_count);
+}
+
 void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse) {
   ReadTyped read(typed, refuse);
   for_each_option(options, read);
   read.finish();
+  if (typed.count(node_count_option.key) > 0) limit_search_to_given_nodes(options);
 }
 
 }  // namespace wscvt

@@ -212,7 +212,6 @@ void for_each_common_option(Options& options, Visitor& visitor) {
   visitor(options.node_count, node_count_option);
   visitor(options.target.percent, error_target_option);
   visitor(options.target.measure);
-  visitor(options.target.largest_node_count, largest_node_count_option);
   visitor(options.degree, harmonic_degree_option);
   visitor(options.points, points_option);
   visitor(options.shrink_wrap.opening_percent, shrink_wrap_option);
@@ -255,13 +254,18 @@ Sentence refusal_of_option(std::string_view key, Method method);
 /// Returns such a sentence for a value of an option, or for a weighting that is gone.
 Sentence refusal_of_value(std::string_view key, std::string_view value, Method method);
 
+/// If there is an allowed error, makes a number of nodes that the user gave the largest of the
+/// search, which then begins with at most the usual number. Otherwise changes nothing.
+void limit_search_to_given_nodes(RemeshOptions& options);
+
 /// Options as users type them: texts by the options' keys.
 using TypedOptions = std::map<std::string, std::string, std::less<>>;
 
 /// Takes the key of an option and what is wrong with it; empty if no method has it. Throws.
 using RefuseOption = std::function<void(std::string_view key, const Sentence& refusal)>;
 
-/// Reads the texts into `options`, the method first. A flag is "true" or "false".
+/// Reads the texts into `options`, the method first. A flag is "true" or "false". With an allowed
+/// error, a number of nodes is the limit, see limit_search_to_given_nodes.
 void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse);
 
 }  // namespace wscvt

@@ -241,7 +241,8 @@ void warn_of_search(const RemeshResult& result, Sentences& warnings) {
     warnings.push_back(
         "No number of nodes up to " + std::to_string(result.search->node_count) +
         " has an error of at most " + format_percent(0.01 * result.options.target.percent) +
-        ". This is the result with that number. Allow more nodes, or a larger error.");
+        ". This is the result with that number. Give a larger " + mention(node_count_option) +
+        ", or a larger " + mention(error_target_option) + ".");
   }
 }
 

@@ -39,7 +39,8 @@ inline constexpr NumberOption<int> node_count_option = {
     4,
     1000000,
     Ends::Both,
-    "the remesh gets exactly this number. With an allowed error, the first number tried"};
+    "the remesh gets exactly this number; with an allowed error, at most this number, or 20000 if "
+    "none is given"};
 
 /// Weight of a seed, which sets the size of its cell: w in steradian, for N seeds on a surface of
 /// area S, at radius r and area per solid angle g = dA/dOmega. Equations are of the paper named in
