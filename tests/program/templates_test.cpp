@@ -83,7 +83,7 @@ TEST_F(Templates, ReadsATableOfShapes) {
       << "grain,file,scan.volume [length^3],scan.convexity,scan.roundness_wadell\r\n"
          "a,scans/s10.stl,8,0.9,0.5\r\nb,scans/s11.stl,1,0.8,0.3\r\nc,scans/s12.stl,27,0.7,\r\n";
   const Outcome outcome =
-      run("grow --templates shape.csv -k 2 -n 50 -o out --descriptors convexity,roundness_wadell");
+      run("grow --templates=convexity,roundness_wadell shape.csv -k 2 -n 50 -o out");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("2 templates of 2 grains (1 left out)"), std::string::npos)
       << outcome.output;
@@ -123,12 +123,15 @@ TEST_F(Templates, RefusesWrongCalls) {
                   {"scans/s10.stl -k 1 -o out", 1, "one grain, so there is nothing to choose"},
                   {"scans/s10.stl -o out", 1, "Give at least two grains"},
                   {"scans -k 0 -o out", 2, "number of grains"},
-                  {"scans -k 2 -o out --descriptors volume,nonsense", 1, "nonsense"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},
                   {"scans -k 1001 -o out", 2, "templates"},
                   {"scans -k 2 -o out --sizes s.csv", 2, "Leave out --sizes"},
-                  {"same.csv -k 1 -o out --descriptors convexity", 1, "\"convexity\" is equal"},
                   {"none.csv -k 2 -o out", 1, "none.csv"}},
+                 {"out"});
+  expect_refused("grow",
+                 {{"scans -k 2 -o out --templates=volume,nonsense", 1, "nonsense"},
+                  {"scans -k 2 -o out --templates=convexity,,volume", 1, "\"\""},
+                  {"same.csv -k 1 -o out --templates=convexity", 1, "\"convexity\" is equal"}},
                  {"out"});
 }
 

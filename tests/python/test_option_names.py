@@ -46,10 +46,10 @@ NAMES = {
     "describe": Names(lambda **o: wscvt.describe(*GRAIN, **o), "describe", {"vertices", "faces", "reference"},
                       IN_FILES | {"parts", "background"}),
     "sample": Names(lambda **o: wscvt.sample({"volume": [1.0]}, **o), "sample", {"table", "other", "repetitions"}),
-    "templates": Names(lambda **o: wscvt.templates([[1.0]], [1.0], **o), "grow", {"masses"},
+    "templates": Names(lambda **o: wscvt.templates([[1.0]], [1.0], **o), "grow", {"masses", "descriptors"},
                        {"templates", "format", "sizes", "shard", "nodes", "donors", "degree"}),
     "grow": Names(lambda **o: wscvt.grow([], **{"count": 1, **o}), "grow", {"grains"},
-                  {"templates", "format", "sizes", "shard", "descriptors"}),
+                  {"templates", "format", "sizes", "shard"}),
     "clump": Names(lambda **o: wscvt.clump(*GRAIN, **o), "clump", {"vertices", "faces"}, {"engine", "sizes"}),
     # "faces" is the number of a part's.
     "convex": Names(lambda **o: wscvt.convex(*GRAIN, **o), "convex", OF_HANDLES, {"engine", "sizes"}),

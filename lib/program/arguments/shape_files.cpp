@@ -225,7 +225,7 @@ void check_choice(const DescribedSample& sample, const std::vector<std::string>&
     if (column.maxCoeff() - column.minCoeff() > 1e-11 * largest) continue;
     refuse("The descriptor \"" + keys[j] +
            "\" is equal for all grains, so it cannot choose templates. Give others with "
-           "--descriptors.");
+           "--templates=NAMES.");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +27,9 @@ namespace {
 /// `wscvt grow`: makes virtual grains with the statistics of a sample, or chooses templates.
 struct GrowArguments {
   std::vector<std::string> inputs;
-  std::string sizes;       ///< file of a size curve; empty: sizes of the sample
-  bool templates = false;  ///< chooses real grains instead
+  std::string sizes;  ///< file of a size curve; empty: sizes of the sample
+  /// Chooses real grains instead, by these descriptors, or "true" for the job's. Empty: grows.
+  std::string templates;
   GrowJob job;
   TemplateJob choice;        ///< of templates, with the job's folder, shard, format and nodes
   std::optional<int> count;  ///< of grains; empty: the default of the job
@@ -50,6 +52,11 @@ TemplateJob checked_choice(const GrowArguments& arguments) {
   job.format = arguments.job.format;
   job.nodes = arguments.job.nodes;
   job.options.seed = arguments.job.options.seed;
+  if (arguments.templates != "true") {
+    job.descriptors.clear();
+    std::istringstream names(arguments.templates);
+    for (std::string name; std::getline(names, name, ',');) job.descriptors.push_back(name);
+  }
   if (arguments.count) job.options.count = *arguments.count;
   require_in_range(job.options.count, template_count_option);
   check_format(job.format);
@@ -83,7 +90,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
        "Make virtual grains like those of a sample, or choose templates of it",
        {"scans -k 10000 -o grown", "coefficients -k 500 -o grown -n 300 --format stl",
         "scans -k 2000 -o grown --sizes sieve.csv", "scans --templates -k 20 -o chosen",
-        "shape.csv --templates -k 50 -o chosen --descriptors convexity,roundness_wadell"},
+        "shape.csv --templates=convexity,roundness_wadell -k 50 -o chosen"},
        "OUT gets a mesh per grain and grown.csv; of templates, meshes of the volume of a sphere of "
        "diameter 1, templates.csv (weights and sizes), sizes.csv and mercury_psd.csv (the size "
        "curve) and distances.csv. Meshes are in the principal frame. wscvt clump OUT --engine NAME "
@@ -99,8 +106,12 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
       ->type_name("SAMPLE")
       ->required();
   add_folder_argument(app, arguments.job.folder);
-  app.add_flag("--templates", arguments.templates,
-               "Choose real grains with weights that represent the sample");
+  app.add_flag(
+         "--templates", arguments.templates,
+         "Choose real grains with weights that represent the sample by these descriptors, with "
+         "commas between: names as in the files of wscvt describe. Default: "
+         "sphericity_wadell,zingg_elongation_inertia,zingg_flatness_inertia,convexity")
+      ->option_text("[=NAMES]");
   add_typed(app, "-k,--count",
             [&arguments](std::string_view text) {
               arguments.count = from_typed(text, grown_count_option);
@@ -117,12 +128,6 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
   add_file_argument(app, "--sizes", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Default: the sizes of the sample");
-  app.add_option("--descriptors", arguments.choice.descriptors,
-                 "Descriptors for the choice of templates, with commas between: names as in the "
-                 "files of wscvt describe. Default: sphericity_wadell, zingg_elongation_inertia, "
-                 "zingg_flatness_inertia, convexity")
-      ->type_name("NAMES")
-      ->delimiter(',');
   add_number(app, "--donors", arguments.job.options.donors, donors_option);
   add_number(app, "-d,--degree", arguments.job.degree, sample_degree_option);
   add_number(app, "--seed", arguments.job.options.seed, sample_seed_option);
@@ -135,7 +140,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
 int run(const GrowArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   if (!arguments.quiet) check_writable("/dev/stdout");
-  if (arguments.templates) return choose_templates_of(arguments, begin);
+  if (!arguments.templates.empty()) return choose_templates_of(arguments, begin);
   const GrowJob job = checked([&] { return checked_job(arguments); });
   const std::vector<std::string> files = checked([&] {
     std::vector<std::string> real = shape_files(arguments.inputs);
