@@ -78,12 +78,11 @@ std::vector<SampleGrain> sample_of_grains(std::vector<RealGrain>& grains, const 
   return sample;
 }
 
-py::list grow(const py::list& grains, std::size_t n, int nodes, int donors, int degree,
-              std::uint64_t seed, int threads, const py::object& progress) {
+py::list grow(const py::list& grains, std::size_t n, int nodes, int degree, std::uint64_t seed,
+              int threads, const py::object& progress) {
   std::vector<RealGrain> real;
   for (const py::handle& grain : grains) real.push_back(real_grain(grain));
   GrowOptions options;
-  options.donors = donors;
   options.seed = seed;
   using Grown = std::pair<GrownBody, NearestGrain>;
   const std::vector<Grown> bodies = work_on(threads, progress, [&](const Execution& execution) {

@@ -164,7 +164,6 @@ TEST_F(Grow, RefusesWrongCalls) {
   write_sample(7);
   expect_refused("grow",
                  {{"real -o out --degree 6", 1, "7 usable grains"},
-                  {"real -o out --donors 1", 2, "donors"},
                   {"real -o out --degree 3", 2, "degree"},
                   {"real -o out --format xyz", 2, "format"},
                   {"none.ply -o out", 1, "none.ply"},

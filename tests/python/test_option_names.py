@@ -47,7 +47,7 @@ NAMES = {
                       IN_FILES | {"parts", "background"}),
     "sample": Names(lambda **o: wscvt.sample({"volume": [1.0]}, **o), "sample", {"table", "other", "repetitions"}),
     "templates": Names(lambda **o: wscvt.templates([[1.0]], [1.0], **o), "grow", {"masses", "descriptors"},
-                       {"templates", "format", "sizes", "shard", "nodes", "donors", "degree"}),
+                       {"templates", "format", "sizes", "shard", "nodes", "degree"}),
     "grow": Names(lambda **o: wscvt.grow([], **{"count": 1, **o}), "grow", {"grains"},
                   {"templates", "format", "sizes", "shard"}),
     "clump": Names(lambda **o: wscvt.clump(*GRAIN, **o), "clump", {"vertices", "faces"}, {"engine", "sizes"}),

@@ -128,7 +128,6 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
   add_file_argument(app, "--sizes", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Default: the sizes of the sample");
-  add_number(app, "--donors", arguments.job.options.donors, donors_option);
   add_number(app, "-d,--degree", arguments.job.degree, sample_degree_option);
   add_number(app, "--seed", arguments.job.options.seed, sample_seed_option);
   add_shard_argument(app, arguments.job.shard);

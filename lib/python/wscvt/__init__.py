@@ -661,7 +661,7 @@ def templates(descriptors, masses, count=20, *, seed=1, threads=0, progress=None
                    "random_by_mass": parts["random_by_mass"], "stands_for": parts["stands_for"]}
 
 
-def grow(grains, count, *, nodes=500, donors=3, degree=20, seed=1, threads=0, progress=None):
+def grow(grains, count, *, nodes=500, degree=20, seed=1, threads=0, progress=None):
     """Makes virtual grains with the statistics of real grains: (meshes, table).
 
     grains: 8 or more meshes, as for remesh, or arrays of SH coefficients. meshes is a list
@@ -677,7 +677,7 @@ def grow(grains, count, *, nodes=500, donors=3, degree=20, seed=1, threads=0, pr
             real.append(grain)
         else:
             real.append(tuple(_arrays(grain)))
-    rows = _wscvt.grow_of(real, count, nodes, donors, degree, seed, threads, progress)
+    rows = _wscvt.grow_of(real, count, nodes, degree, seed, threads, progress)
     table = numpy.array([row[2:] for row in rows],
                         [("equivalent_diameter", "f8"), ("base_grain", "i8"),
                          ("nearest_grain", "i8"), ("nearest_distance", "f8"), ("collage", "f8"),

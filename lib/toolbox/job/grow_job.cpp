@@ -206,11 +206,9 @@ std::unique_ptr<NamedGrains> grains_of(const GrowJob& job) {
 }
 
 GrainJob job_of(const GrowJob& options, const Growing& growing) {
-  Json call = {{"format", "wscvt-grow"},           {"made_by", made_by()},
-               {"meshes", options.format},         {"count", options.grains},
-               {"nodes", options.nodes},           {"degree", options.degree},
-               {"donors", options.options.donors}, {"seed", options.options.seed},
-               {"sample", growing.files}};
+  Json call = {{"format", "wscvt-grow"},       {"made_by", made_by()},   {"meshes", options.format},
+               {"count", options.grains},      {"nodes", options.nodes}, {"degree", options.degree},
+               {"seed", options.options.seed}, {"sample", growing.files}};
   for (int k = 0; options.sizes && k <= 10; ++k) {
     call["sizes"].push_back(options.sizes->diameter(0.1 * k));
   }

@@ -214,13 +214,13 @@ def show(name, made, real):
                                 " / ".join("%.2f" % a for a in separability(made, real))), flush=True)
 
 
-def grow(arguments, files, folder, donors):
+def grow(arguments, files, folder):
     names = pathlib.Path(folder) / "sample.txt"
     names.write_text("".join("%s\n" % file for file in files))
-    out = pathlib.Path(folder) / ("grown%d" % donors)
+    out = pathlib.Path(folder) / "grown"
     run = subprocess.run(
-        [arguments.program, "grow", "@%s" % names, "-k", str(arguments.grown), "-o", out, "--donors",
-         str(donors), "--format", "json", "--seed", str(arguments.seed)],
+        [arguments.program, "grow", "@%s" % names, "-k", str(arguments.grown), "-o", out,
+         "--format", "json", "--seed", str(arguments.seed)],
         stdout=subprocess.PIPE, text=True, check=False)
     grains = []
     for file in sorted(out.glob("*.json")):
@@ -270,7 +270,7 @@ def splits(arguments, files):
         sample, unseen = (numpy.array([rows[file] for file in half if file in rows])
                           for half in (fit, judge))
         with tempfile.TemporaryDirectory() as folder:
-            made = table_of(grow(arguments, fit, folder, 3)[0])
+            made = table_of(grow(arguments, fit, folder)[0])
         table.append([distances_of(sample, unseen), distances_of(made, unseen),
                       distances_of(made, sample)])
         print("| %d | %s | %s |" % (seed, cells_of(*table[-1]), " / ".join(
@@ -302,14 +302,9 @@ def main():
     show("Gaussian, 95 % of the variance", table_of(gaussian(matrix, arguments.grown, rng)), real)
     show("Nataf, all coefficients", table_of(nataf(matrix, arguments.grown, rng)), real)
     with tempfile.TemporaryDirectory() as folder:
-        notes = {}
-        for donors in (2, 3, 4):
-            grains, notes[donors] = grow(arguments, fit, folder, donors)
-            show("`wscvt grow`, %d donors" % donors, table_of(grains), real)
-        for donors, lines in notes.items():
-            print("\n%d donors:" % donors)
-            for line in lines:
-                print("  " + line)
+        grains, lines = grow(arguments, fit, folder)
+        show("`wscvt grow`", table_of(grains), real)
+        print("\n" + "\n".join(lines))
         templates(arguments, files, folder)
 
 
