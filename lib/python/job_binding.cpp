@@ -107,7 +107,7 @@ py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::pa
                const std::string& shard, const std::string& format, const std::string& describe,
                const std::string& frame, double scale, double size,
                const std::vector<std::string>& node_table, const std::vector<std::string>& sdf,
-               const std::string& sdf_surface, double sdf_spacing, const std::vector<int>& levels,
+               double sdf_spacing, const std::vector<int>& levels,
                std::optional<std::array<double, 3>> voxel_size, std::int64_t smallest,
                int smoothing, double background, bool at_border, bool parts,
                std::optional<double> separate, int threads, const py::object& progress,
@@ -127,7 +127,6 @@ py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::pa
   options.shapes.contacts = options.shapes.described == Described::Contacts;
   options.format = format;
   options.simulation.frame = frame_of(frame, scale, size);
-  options.simulation.surface = value_of_name<GridSurface>(sdf_surface);
   options.simulation.grid.spacing = sdf_spacing;
   options.node_tables = node_table;
   options.grids = sdf;
@@ -154,8 +153,7 @@ void bind_job(py::module_& module) {
       py::arg("frame") = key_of(usual.simulation.frame.frame),
       py::arg("scale") = usual.simulation.frame.scale,
       py::arg("size") = usual.simulation.frame.size, py::arg("node_table") = usual.node_tables,
-      py::arg("sdf") = usual.grids, py::arg("sdf_surface") = key_of(usual.simulation.surface),
-      py::arg("sdf_spacing") = usual.simulation.grid.spacing,
+      py::arg("sdf") = usual.grids, py::arg("sdf_spacing") = usual.simulation.grid.spacing,
       py::arg("levels").noconvert() = usual.levels, py::arg("voxel_size") = py::none(),
       py::arg("smallest") = usual.volume.smallest, py::arg("smoothing") = usual.volume.smoothing,
       py::arg("background") = usual.volume.background,

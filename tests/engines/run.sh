@@ -23,9 +23,15 @@ cd "$folder"
 
 for nodes in 200 1000; do
   "$program" remesh -q "$here/../../meshes/sand_7228.ply" "grain_$nodes.stl" -n "$nodes" \
-    --frame principal --size 0.1 --sdf-surface remesh \
-    --node-table "nodes_$nodes.csv" --node-table "nodes_$nodes.vtp" --node-table "grain_$nodes.shp" \
-    --sdf "grid_$nodes.npy" --sdf "grid_$nodes.vti"
+    --frame principal --size 0.1 \
+    --node-table "nodes_$nodes.csv" --node-table "nodes_$nodes.vtp" --node-table "grain_$nodes.shp"
+  # The program's grids have distances to the scan. VTK knows only the remesh.
+  PYTHONPATH=$(dirname "$program")/python "$python" - "$here/../../meshes/sand_7228.ply" "$nodes" << 'END'
+import sys, wscvt
+remesh = wscvt.remesh(sys.argv[1], int(sys.argv[2]))
+for ending in "npy", "vti":
+    remesh.write_signed_distances("grid_%s.%s" % (sys.argv[2], ending), surface="remesh", frame="principal", size=0.1)
+END
   "$python" "$here/vtk_test.py" "nodes_$nodes.csv" "nodes_$nodes.vtp" "grid_$nodes.npy" \
     "grid_$nodes.vti"
   yade -n -x "$here/yade_test.py" "nodes_$nodes.csv" "grid_$nodes.npy" > "yade_$nodes.log" 2>&1 || {

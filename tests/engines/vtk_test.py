@@ -40,7 +40,7 @@ assert set(image.GetSpacing()) == {description["spacing"]}
 values = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(distances.shape, order="F")
 assert numpy.array_equal(values, distances)
 
-# The grid is of the remesh (--sdf-surface remesh), whose distances VTK finds another way.
+# The grid is of the remesh, whose distances VTK finds another way.
 other = vtkImplicitPolyDataDistance()
 other.SetInput(mesh)
 random = numpy.random.RandomState(1)

@@ -78,10 +78,10 @@ class ProgramOptions : public test::ProgramRun {
 };
 
 TEST_F(ProgramOptions, AllOfTheHelpAreTestedHere) {
-  std::set<std::string> tested = {
-      "help",        "help-all",    "threads", "coefficients", "quiet",      "report",
-      "node-table",  "sdf",         "frame",   "verbose",      "size",       "scale",
-      "sdf-surface", "sdf-spacing", "output",  "tetrahedra",   "edge-length"};
+  std::set<std::string> tested = {"help",        "help-all", "threads",    "coefficients",
+                                  "quiet",       "report",   "node-table", "sdf",
+                                  "frame",       "verbose",  "size",       "scale",
+                                  "sdf-spacing", "output",   "tetrahedra", "edge-length"};
   for (const OptionCase& one : option_cases()) tested.insert(one.key);
   const Outcome help = run("remesh --help-all");
   EXPECT_EQ(help.exit_code, 0);
@@ -171,7 +171,7 @@ TEST_F(ProgramOptions, WithoutAnEffectAreTold) {
     EXPECT_EQ(works.errors.find("no effect"), std::string::npos) << works.errors;
   }
   for (const auto& [option, needed] :
-       {std::pair("--sdf-spacing", "0.2"), {"--sdf-surface", "remesh"}, {"--edge-length", "0.2"}}) {
+       {std::pair("--sdf-spacing", "0.2"), {"--edge-length", "0.2"}}) {
     const Outcome outcome = run(call + option + " " + needed);
     EXPECT_EQ(outcome.exit_code, 2);
     const std::string file = std::string(option) == "--edge-length" ? "--tetrahedra" : "--sdf";
@@ -268,7 +268,7 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   // The scan has the axes 1, 0.8 and 0.7; as a remesh of volume 1 in its principal frame.
   const Outcome outcome =
       run("remesh scan.ply framed.ply -q -n 60 -d 6 --frame principal --size 2 --sdf-spacing 0.2 "
-          "--sdf-surface remesh --node-table nodes.csv --node-table nodes.vtp "
+          "--node-table nodes.csv --node-table nodes.vtp "
           "--node-table grain.shp --sdf grid.npy --sdf grid.vti --sdf grid.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.errors;
   const ShapeDescriptors framed = describe_shape(read_mesh(path("framed.ply")), Execution(1));
@@ -276,7 +276,7 @@ TEST_F(ProgramOptions, FilesForASimulationLieInOneFrame) {
   EXPECT_LT(framed.centroid.norm(), 0.02);
   const Json description = Json::parse(content("grid.npy.json"));
   EXPECT_EQ(description.at("spacing"), 0.2);
-  EXPECT_EQ(description.at("surface"), "remesh");
+  EXPECT_EQ(description.at("surface"), "scan");
   EXPECT_EQ(description.at("frame").at("name"), "principal");
   for (const char* name : {"nodes.csv", "nodes.vtp", "grain.shp", "grid.vti", "grid.json"}) {
     EXPECT_NE(content(name), "") << name;

@@ -21,7 +21,7 @@ IN_FILES = {"select"}
 # --max-handle-loop 0 keeps all handles; only a library's user refuses them.
 OF_HANDLES = {"handles"}
 # Of the functions of a Remesh.
-OF_A_RESULT = {"coefficients", "node_table", "sdf", "sdf_surface", "sdf_spacing", "frame", "size", "scale"}
+OF_A_RESULT = {"coefficients", "node_table", "sdf", "sdf_spacing", "frame", "size", "scale"}
 
 
 class Names:

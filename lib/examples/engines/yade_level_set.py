@@ -28,8 +28,7 @@ diameter, width, stiffness, friction = 0.02, 0.08, 1e4, 0.5
 def level_set(k, scan):
     name = "grain_%d" % k
     wscvt("remesh", scan, name + ".obj", "-n", 100, "--frame", "principal", "--size", diameter,
-          "--node-table", name + ".csv", "--sdf", name + ".npy", "--sdf-spacing", diameter / 20,
-          "--sdf-surface", "remesh")
+          "--node-table", name + ".csv", "--sdf", name + ".npy", "--sdf-spacing", diameter / 20)
     return Grain(name + ".csv", name + ".npy"), read_obj(name + ".obj")
 
 

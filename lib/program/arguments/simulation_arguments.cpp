@@ -56,9 +56,6 @@ void add_options(CLI::App& app, SimulationOptions& options) {
       ->group(finer_settings);
   add_number(app, "--" + std::string(scale_option.key), options.frame.scale, scale_option)
       ->group(finer_settings);
-  add_choice(app, "--" + std::string(EnumerationTable<GridSurface>::key), options.surface)
-      ->needs("--sdf")
-      ->group(finer_settings);
   add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
              grid_spacing_option)
       ->needs("--sdf")
@@ -72,7 +69,7 @@ void add_simulation_arguments(CLI::App& app, SimulationArguments& arguments) {
             "Write position, normal and area of every node to this .csv, .vtp or .shp\n"
             ".vtp is for ParaView, .shp is a shape for Rockable");
   add_files(app, "--sdf", "FILE", arguments.grids,
-            "Write signed distances on a grid to this .npy, .vti or .json\n"
+            "Write signed distances to the repaired scan, on a grid, to this .npy, .vti or .json\n"
             "Distances are negative inside. .npy is a NumPy array with a description in FILE.json, "
             ".vti is for ParaView, .json is a level set for NetDEM, positive inside");
   add_tetrahedra_arguments(app, arguments.tetrahedra, "the remesh");
@@ -85,7 +82,8 @@ void add_simulation_arguments(CLI::App& app, RemeshJob& job) {
             "Write position, normal and area of every node, one file per grain in "
             "OUT/node-table: csv, vtp or shp");
   add_files(app, "--sdf", "NAME", job.grids,
-            "Write signed distances on a grid, one file per grain in OUT/sdf: npy, vti or json");
+            "Write signed distances to the repaired scan, on a grid, one file per grain in "
+            "OUT/sdf: npy, vti or json");
   add_options(app, job.simulation);
 }
 

@@ -110,7 +110,7 @@ int run(const RemeshArguments& arguments) {
   // For pages and signed distances.
   options.measures.repaired_scan =
       std::any_of(common.reports.begin(), common.reports.end(), shows_scan) ||
-      (!simulation.grids.empty() && simulation.options.surface == GridSurface::Scan);
+      !simulation.grids.empty();
 
   options.measures.written = [path = arguments.output,
                               frame = simulation.options.frame](const RemeshResult& result) {

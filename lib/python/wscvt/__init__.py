@@ -159,8 +159,7 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
     frame: of the meshes and of the files below: "input" (default), "centred" or "principal".
     size: equivalent diameter of each grain in these files. scale: factor of all lengths.
     node_table: endings of files of nodes in output/node-table: "csv", "vtp", "shp".
-    sdf: endings of files of signed distances in output/sdf: "npy", "vti", "json".
-    sdf_surface: "scan" (default) or "remesh".
+    sdf: endings of files of signed distances to the repaired scan, in output/sdf: "npy", "vti", "json".
     sdf_spacing: length between the grid's points; 0, the default, chooses one.
     voxel_size: length, or three along x, y and z. The default is the one of the file.
     smallest, smoothing, background, at_border: of a volume, as for extract.

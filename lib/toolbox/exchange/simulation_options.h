@@ -89,12 +89,12 @@ inline constexpr NumberOption<double> grid_spacing_option = {
     Ends::Both,
     "in the unit of the output. 0: a fiftieth of the equivalent diameter, or more to keep the grid "
     "to 20 million points"};
-/// Surface to which the distances of a grid are measured.
+/// Surface to which the distances of a grid are measured. The program's grids are of the scan.
 enum class GridSurface { Scan, Remesh };
 
 template <>
 struct EnumerationTable<GridSurface> {
-  static constexpr std::string_view key = "sdf-surface";
+  static constexpr std::string_view key = "surface";
   static constexpr std::string_view subject = "surface of the distance grid";
   static constexpr Enumerator<GridSurface> rows[] = {
       {GridSurface::Scan, "scan", "the repaired scan"},

@@ -51,7 +51,6 @@ std::string call_text(const RemeshJob& job) {
                           {"size", simulation.frame.size},
                           {"node-table", job.node_tables},
                           {"sdf", job.grids},
-                          {"sdf-surface", key_of(simulation.surface)},
                           {"sdf-spacing", simulation.grid.spacing}};
   }
   return json_document(call);
@@ -150,8 +149,7 @@ class GrainRemesh {
     const std::string first = grain_.folders.front().file_of(grain_.name);
     RemeshOptions options = job_.remesh;
     options.measures.repaired_scan =
-        describes_scan(job_.shapes.described) || job_.shapes.contacts ||
-        (!job_.grids.empty() && job_.simulation.surface == GridSurface::Scan);
+        describes_scan(job_.shapes.described) || job_.shapes.contacts || !job_.grids.empty();
     options.measures.written = [&](const RemeshResult& made) {
       return as_written(in_frame(made.mesh, simulation_frame(made.scan, job_.simulation.frame)),
                         first);
