@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts cohesive elements of no thickness between the bodies of a packing, for Abaqus.
 
-    wscvt extract labels.nrrd packing --conforming --tetrahedra packing.inp
+    wscvt extract labels.nrrd packing --tetrahedra packing.inp
     cohesive.py packing.inp cohesive.inp
 
 wscvt fragment --tetrahedra makes such a file too. In it two bodies share the nodes of their wall. Here each

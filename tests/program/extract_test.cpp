@@ -120,7 +120,7 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
   volume_.fill_ball(3, {20, 30, 30}, 12.0);
   volume_.fill_ball(8, {42, 30, 30}, 12.0);
   test::write_bytes(folder_ / "pair.nrrd", test::nrrd(volume_, "spacings: 0.5 0.5 0.5\n"));
-  const Outcome outcome = run("extract pair.nrrd out --conforming --edge-length 1.5");
+  const Outcome outcome = run("extract pair.nrrd out --edge-length 1.5");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   auto grains = rows("out/grains.csv", "grain");
   ASSERT_EQ(grains.size(), 2U);
@@ -150,7 +150,7 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
   // A call over the meshes of another segmentation leaves none of them.
   volume_.fill_ball(3, {42, 30, 30}, 12.0);
   test::write_bytes(folder_ / "one.nrrd", test::nrrd(volume_, "spacings: 0.5 0.5 0.5\n"));
-  const Outcome again = run("extract one.nrrd out --conforming --edge-length 1.5");
+  const Outcome again = run("extract one.nrrd out --edge-length 1.5");
   EXPECT_NE(again.output.find("1 file of the earlier call removed"), std::string::npos)
       << again.output;
   EXPECT_FALSE(exists("out/8.ply"));
@@ -159,10 +159,10 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
             std::string::npos);
   EXPECT_FALSE(exists("plain/8.ply"));
   EXPECT_TRUE(exists("plain/3.ply"));
-  const Outcome alone = run("extract pair.nrrd other --edge-length 1.5");
-  EXPECT_NE(alone.exit_code, 0);
-  EXPECT_NE(alone.errors.find("--edge-length is only for --conforming"), std::string::npos)
-      << alone.errors;
+  ASSERT_EQ(run("extract pair.nrrd few -n 150").exit_code, 0);
+  for (const auto& [label, row] : rows("few/grains.csv", "grain")) {
+    EXPECT_NEAR(std::stod(row.at("nodes")), 150.0, 30.0) << label;
+  }
 }
 
 TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
@@ -179,7 +179,7 @@ TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
   const std::string table = content("labels/labels.csv");
   for (const std::string call :
        {"extract bodies.obj labels", "extract sample.nrrd bodies",
-        "extract sample.nrrd bodies --conforming", "batch bodies.obj -o labels --parts -n 60",
+        "extract sample.nrrd bodies --edge-length 0", "batch bodies.obj -o labels --parts -n 60",
         "batch sample.nrrd -o bodies -n 60", "batch sample.nrrd -o labels -n 60 --format off",
         "batch sample.nrrd -o labels -n 60,80"}) {
     const Outcome outcome = run(call);
@@ -272,18 +272,18 @@ TEST_F(Extract, NamesALabelThatIsTooSmallForWalls) {
   volume_.fill_ball(3, {20, 20, 30}, 8.0);
   volume_.fill_box(7, {40, 40, 40}, {41, 41, 41});
   test::write_bytes(folder_ / "sample.nrrd", test::nrrd(volume_, ""));
-  EXPECT_NE(run("extract sample.nrrd out --conforming --smallest 1")
+  EXPECT_NE(run("extract sample.nrrd out --edge-length 0 --smallest 1")
                 .errors.find("Label 7 has only 1 voxel in its largest piece. "),
             std::string::npos)
       << content("stderr.txt");
-  EXPECT_EQ(run("extract sample.nrrd out --conforming --smallest 64").exit_code, 0);
+  EXPECT_EQ(run("extract sample.nrrd out --edge-length 0 --smallest 64").exit_code, 0);
 }
 
 TEST_F(Extract, CountsLabelsInEachCommand) {
   write_sample();
   const std::string line = "5 labels: 3 taken, 1 at the border, 1 too small\n";
   for (const std::string call :
-       {"extract sample.nrrd walls --conforming", "clump sample.nrrd -k 2 -o clumps",
+       {"extract sample.nrrd walls --edge-length 0", "clump sample.nrrd -k 2 -o clumps",
         "batch sample.nrrd -o out -n 60 --describe none"}) {
     const Outcome outcome = run(call);
     EXPECT_NE(outcome.output.find(line), std::string::npos) << call << outcome.output;
@@ -419,7 +419,10 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
                   {"sample.nrrd out --format step", 2, "The format of the meshes"},
                   {"sample.nrrd out --smallest 5%", 2, "Give it without %"},
                   {"sample.ply out", 1, "sample.ply"},
-                  {"sample.ply out --conforming", 2, "a whole volume"},
+                  {"sample.ply out --edge-length 3", 2, "wscvt batch MESH --parts -n N -o OUT"},
+                  {"sample.ply out -n 50 --tetrahedra a.vtu", 2, "--nodes, --tetrahedra remeshes"},
+                  {"sample.nrrd out -n 50 --shard 1/2", 2, "Leave out --shard"},
+                  {"sample.nrrd out -n 50 --edge-length 3", 2, "not both"},
                   {"missing.nrrd out", 1, "missing.nrrd"},
                   {"cut.nrrd out", 1, "bytes of voxels"},
                   {"empty.nrrd out", 1, "no label except the background"},
@@ -488,7 +491,7 @@ TEST_F(Extract, DescribesEachGrainIfAsked) {
   EXPECT_EQ(run("sample dense -q --report page.html").exit_code, 0);
   EXPECT_EQ(run("extract sample.nrrd plain -q").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "plain/shape.csv"));
-  EXPECT_EQ(run("extract sample.nrrd walls --conforming --describe").exit_code, 2);
+  EXPECT_EQ(run("extract sample.nrrd walls -n 50 --describe").exit_code, 2);
 }
 
 TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {

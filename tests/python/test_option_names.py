@@ -39,7 +39,7 @@ NAMES = {
     "batch": Names(lambda **o: wscvt.batch("scans", output="no", **o), "batch", {"scans", "keep_scan"} | OF_HANDLES,
                    IN_FILES),
     "segment": Names(lambda **o: wscvt.segment(VOLUME, **o), "segment", {"scan"}, IN_FILES),
-    "extract": Names(lambda **o: wscvt.extract(VOLUME, **o), "extract", {"labels"},
+    "extract": Names(lambda **o: wscvt.extract(VOLUME, **o), "extract", {"labels", "conforming"},
                      IN_FILES | {"parts", "separate", "describe", "tetrahedra", "format", "shard"}),
     "fabric": Names(lambda **o: wscvt.fabric(VOLUME, **o), "describe", {"labels", "scan"},
                     IN_FILES | {"parts", "roundness_ball", "roughness_cutoff"}),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -38,18 +39,20 @@ struct ExtractArguments {
   std::string smallest;  ///< voxels, or % of the largest body; empty: the job's
   ExtractJob job;
   Shard shard;
-  bool conforming = false;         ///< remeshes all labels at once
-  ConformingOptions walls;         ///< of that; its smoothing is the job's
+  ConformingOptions walls;         ///< of conforming grains; its smoothing is the job's
   TetrahedraArguments tetrahedra;  ///< of conforming grains
+  /// Options of conforming grains. Any of them asks for these, as wscvt fragment does.
+  std::vector<const CLI::Option*> of_walls;
   int threads = 0;
   bool quiet = false;
+
+  bool is_conforming() const {
+    return std::any_of(of_walls.begin(), of_walls.end(),
+                       [](const CLI::Option* option) { return option->count() > 0; });
+  }
 };
 
 namespace fs = std::filesystem;
-
-constexpr FlagOption conforming_option = {
-    "conforming", "remesh all grains at once",
-    "with common walls; OUT also gets walls.vtu, walls.msh, walls.csv and grains.csv"};
 
 /// Remeshes all taken labels at once.
 int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
@@ -113,6 +116,21 @@ std::unique_ptr<BodyGrains> open_bodies(const ExtractArguments& arguments) {
   });
 }
 
+/// Throws Error for what does not go with conforming grains.
+void check_walls(const ExtractArguments& arguments, bool is_mesh) {
+  std::string given;
+  for (const CLI::Option* option : arguments.of_walls) {
+    if (option->count() == 0) continue;
+    given += (given.empty() ? "" : ", ") + option->get_name();
+  }
+  const std::string remeshes = given + " remeshes all grains of a volume of labels at once. ";
+  if (is_mesh) {
+    refuse(remeshes + "For the bodies of a mesh use wscvt batch MESH --parts -n N -o OUT.");
+  }
+  if (arguments.job.describe) refuse(remeshes + "Leave out --describe.");
+  if (arguments.shard.count > 1) refuse(remeshes + "Leave out --shard.");
+}
+
 /// Returns the call without what only a mesh or only a volume has. Throws Error for a wrong call.
 ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
   check_format(arguments.job.format);
@@ -120,21 +138,9 @@ ExtractArguments checked_call(ExtractArguments arguments, bool is_mesh) {
   if (same_file(arguments.input, arguments.folder)) {
     refuse("\"" + arguments.input + "\" is the input itself. Give an output folder.");
   }
-  const auto only_for_conforming = [&](bool is_given, const std::string& option) {
-    if (!is_given || arguments.conforming) return;
-    refuse(option + " is only for " + mention(conforming_option) + ".");
-  };
-  only_for_conforming(arguments.walls.edge_length > 0.0, mention(edge_length_option));
-  only_for_conforming(arguments.walls.nodes > 0, mention(wall_nodes_option));
-  only_for_conforming(!arguments.tetrahedra.files.empty(), "--tetrahedra");
-  if (arguments.conforming && arguments.job.describe) {
-    refuse(mention(describe_option) + " does not go with " + mention(conforming_option) + ".");
-  }
+  if (arguments.is_conforming()) check_walls(arguments, is_mesh);
   check_conforming_options(arguments.walls);
   check_tetrahedra_arguments(arguments.tetrahedra);
-  if (arguments.conforming && (is_mesh || arguments.shard.count > 1)) {
-    refuse(mention(conforming_option) + " takes a whole volume of labels at once.");
-  }
   const std::string& smallest = arguments.smallest;
   const bool is_share = !smallest.empty() && smallest.back() == '%';
   if (!smallest.empty() && is_share != is_mesh) {
@@ -159,10 +165,13 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
       {"extract",
        "Write a mesh of each grain of a CT volume, or of each body of a mesh",
        {"labels.nrrd grains --smallest 1000", "labels.tif grains --voxel-size 0.012",
-        "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --conforming --edge-length 4"},
+        "sample.stl bodies --smallest 0.1%", "labels.nrrd walls --edge-length 4"},
        "OUT gets one mesh per label or body, such as 12.ply, and labels.csv or bodies.csv "
-       "with the state of each. The same call continues after an interruption. wscvt "
-       "batch remeshes the grains of a volume, and with --parts the bodies of a mesh.",
+       "with the state of each. The same call continues after an interruption. wscvt batch "
+       "remeshes "
+       "each grain of a volume, and with --parts each body of a mesh. With --edge-length, -n or "
+       "--tetrahedra, extract remeshes all grains at once, with common walls; OUT then also gets "
+       "walls.vtu, walls.msh, walls.csv and grains.csv.",
        true,
        true});
   add_file_argument(
@@ -181,11 +190,17 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
       ->type_name("N");
   app.add_flag("--describe", arguments.job.describe,
                help_of(arguments.job.describe, describe_option));
-  app.add_flag("--conforming", arguments.conforming,
-               help_of(arguments.conforming, conforming_option));
-  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
-  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option);
-  add_tetrahedra_arguments(app, arguments.tetrahedra, "conforming grains");
+  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option)
+      ->description(
+          "Remesh all grains at once with common walls and this mean edge length, 0 or more. "
+          "Default, and 0: three voxels");
+  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option)
+      ->description(
+          "Remesh all grains at once with common walls and about this number of nodes of each");
+  add_tetrahedra_arguments(app, arguments.tetrahedra, "all grains, remeshed at once,");
+  for (const char* name : {"--edge-length", "--nodes", "--tetrahedra"}) {
+    arguments.of_walls.push_back(app.get_option(name));
+  }
   add_format_argument(app, arguments.job.format);
   add_shard_argument(app, arguments.shard);
   add_threads_argument(app, arguments.threads);
@@ -215,7 +230,7 @@ int run(const ExtractArguments& given) {
   } else {
     auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
     print_notes(*labels, use_parts, arguments.quiet);
-    if (arguments.conforming) return run_conforming(arguments, *labels);
+    if (arguments.is_conforming()) return run_conforming(arguments, *labels);
     grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
   }
   const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);

@@ -95,7 +95,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         made = pathlib.Path(scratch)
         run("describe", labels, scan, "-o", made / "contacts")
-        run("extract", labels, made / "walls", "--conforming", "--at-border", "--edge-length", "4", "--format", "obj",
+        run("extract", labels, made / "walls", "--at-border", "--edge-length", "4", "--format", "obj",
             "--tetrahedra", made / "packing.inp")
         grains = sorted((made / "walls").glob("*.obj"), key=lambda path: int(path.stem))
         bodies = [(read_obj(path), COLOURS[int(path.stem) % 20]) for path in grains]
