@@ -179,8 +179,14 @@ TEST_F(ClumpProgram, WrongCallsAreRefused) {
                   {"scans -o out --format stl", 2, "ends in .csv"},
                   {"scans/torn.ply -o c.csv", 1, "torn.ply"},
                   {"scans/a.ply -o c.csv --size 1 --scale 2", 2, "Give one of them"},
-                  {"scans/a.ply -o c.molecule --density 0", 2, "The density is"}},
+                  {"scans/a.ply -o c.molecule --density 0", 2, "The density is"},
+                  {"scans/a.ply -o c.csv --shard 1/2", 2, "--shard is for several"},
+                  {"scans/a.ply -o c.csv --format csv", 2, "--format is for several"}},
                  {"clump.stl", "c.csv", "c.molecule", "out"});
+  expect_refused("convex scans/a.ply -o parts.obj",
+                 {{"--shard 2/2", 2, "--shard is for several"},
+                  {"--format urdf", 2, "the ending of --output selects the format"}},
+                 {"parts.obj", "parts.urdf"});
 }
 
 }  // namespace

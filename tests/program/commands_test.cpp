@@ -190,7 +190,7 @@ TEST_F(Commands, AreFewAndHaveFewOptions) {
   options.erase("help");
   options.erase("help-all");
   EXPECT_GT(options.size(), 50U);
-  EXPECT_LE(options.size(), 68U);
+  EXPECT_LE(options.size(), 60U);
 }
 
 TEST_F(Commands, EachHasAManualPageOfItsHelp) {

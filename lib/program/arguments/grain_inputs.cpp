@@ -76,11 +76,11 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
                      "with one of these per line")
       ->type_name("INPUT")
       ->required();
-  app.add_option(
-         "--format", format,
-         "Ending of the " + files + " of several scans, without the point. Default: " + format)
-      ->type_name("NAME")
-      ->group(finer_settings);
+  arguments.format = app.add_option("--format", format,
+                                    "Ending of the " + files +
+                                        " of several scans, without the point. Default: " + format)
+                         ->type_name("NAME")
+                         ->group(finer_settings);
   add_shard_argument(app, arguments.shard);
   app.get_option("--shard")->group(finer_settings);
   app.add_option("--engine", arguments.engine,
@@ -111,6 +111,17 @@ void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
   }
   frame.frame = Frame::Principal;
   if (!arguments.sizes.empty()) read_given_sizes(arguments.sizes);
+}
+
+void check_one_scan(const ScanInputs& arguments) {
+  if (arguments.format->count() > 0) {
+    refuse(
+        "One scan is given, and --format is for several. Leave it out: the ending of --output "
+        "selects the format.");
+  }
+  if (arguments.shard.count > 1) {
+    refuse("One scan is given, and --shard is for several. Leave it out.");
+  }
 }
 
 void check_sample_outputs(const std::vector<std::string>& outputs,

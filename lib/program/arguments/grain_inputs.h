@@ -20,6 +20,8 @@ struct ScanInputs {
   std::string sizes;                     ///< file of a size curve of the packing; or empty
   const CLI::Option* density = nullptr;  ///< to know whether the command's density was given
 
+  const CLI::Option* format = nullptr;  ///< of several scans
+
   /// Whether there is anything except one mesh file, or the folder is for an engine.
   bool is_sample() const;
 };
@@ -34,6 +36,9 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
 /// format or the frame; or for a curve that cannot be read. Sets the frame of the engine's files.
 void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
                          const std::string& format, FrameOptions& frame);
+
+/// Throws wscvt::Error(InvalidInput) for options of several scans, if only one scan is given.
+void check_one_scan(const ScanInputs& arguments);
 
 /// Throws wscvt::Error(InvalidInput) if the outputs are not one folder, or a report is asked for.
 /// `is_file` tells whether an output is the name of a file.

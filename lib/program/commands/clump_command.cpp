@@ -111,6 +111,7 @@ int run(const ClumpArguments& arguments) {
   }
   const std::string& scan = arguments.sample.inputs.front();
   checked([&] {
+    check_one_scan(arguments.sample);
     refuse_spheres(scan);
     check_mesh_format(scan, MeshUse::Read);
     std::vector<NamedFile> outputs = named_reports(common.reports);

@@ -99,6 +99,7 @@ int run(const ConvexArguments& arguments) {
     }
   }
   checked([&] {
+    check_one_scan(arguments.sample);
     check_mesh_input(scan);
     for (const std::string& output : arguments.outputs) check_part_file(output);
     check_output_paths({{"the scan", scan}}, outputs);
