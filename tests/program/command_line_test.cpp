@@ -524,6 +524,7 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);
+  EXPECT_NE(run("-v none.ply b.ply").errors.find("none.ply"), std::string::npos) << "--verbose";
 }
 
 }  // namespace

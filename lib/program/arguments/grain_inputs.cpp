@@ -96,6 +96,10 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
       ->group(finer_settings);
 }
 
+void tell_density_of_packing(CLI::Option& density) {
+  density.description(density.get_description() + ", with --engine " + typed_text(engine_density));
+}
+
 void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
                          const std::string& format, FrameOptions& frame) {
   if (arguments.engine.empty()) {

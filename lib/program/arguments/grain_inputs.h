@@ -32,6 +32,9 @@ struct ScanInputs {
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
                      std::string& format, EngineShapes shapes);
 
+/// Says in the help of --density that the grains of a packing have another default.
+void tell_density_of_packing(CLI::Option& density);
+
 /// Throws wscvt::Error(InvalidInput) if there is no such engine, or its files cannot have the
 /// format or the frame; or for a curve that cannot be read. Sets the frame of the engine's files.
 void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,

@@ -118,7 +118,7 @@ CallWords call_words(std::vector<std::string> words, const std::vector<std::stri
     words.emplace_back("--help");
     return {words, ""};
   }
-  if (first == "-v") return {{"--version"}, ""};
+  if (first == "-v" && words.size() == 1) return {{"--version"}, ""};
   for (const char* own : {"--help", "-h", "--version", "--completion", "--man-pages"}) {
     if (first.substr(0, first.find('=')) == own) return {words, ""};
   }

@@ -83,6 +83,8 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
     }
   });
   add_volume_arguments(app, arguments.job.volume, finer_settings);
+  CLI::Option* parts = app.get_option("--" + std::string(parts_option.key));
+  parts->description(parts->get_description() + ". Also make each body of a mesh a grain");
   add_threads_argument(app, arguments.threads);
   app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
   return app;

@@ -74,7 +74,10 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
   AddClumpOption add{app};
   for_each_clump_option(arguments.job.clump, add);
   CLI::Option* count = app.get_option("--count");
-  count->description(count->get_description() + "; with an allowed error, at most this many: 200");
+  count->description("Number of spheres, " + range_text(sphere_count_option) +
+                     ": exactly this many; with an allowed error, at most. Default: " +
+                     typed_text(arguments.job.clump.sphere_count) + ", with an allowed error " +
+                     typed_text(arguments.job.clump.most_spheres));
   arguments.count = count;
   for (const char* name : {"--points", "--shrink-wrap", "--max-repaired-area"}) {
     app.get_option(name)->group(finer_settings);
@@ -87,6 +90,7 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
   arguments.sample.density = add_number(app, "--" + std::string(clump_density_option.key),
                                         arguments.job.density, clump_density_option)
                                  ->group(finer_settings);
+  tell_density_of_packing(*app.get_option("--density"));
   add_common_arguments(app, arguments.common);
   for (const char* name : {"--threads", "--quiet"}) {
     app.get_option(name)->group(finer_settings);

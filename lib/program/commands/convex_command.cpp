@@ -57,6 +57,7 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
   add_number(app, "--max-error", arguments.job.convex.tolerance, convex_tolerance_option);
   arguments.sample.density =
       add_number(app, "--density", arguments.job.density, parts_density_option);
+  tell_density_of_packing(*app.get_option("--density"));
   add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame);
   add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
   add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option);

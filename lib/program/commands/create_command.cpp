@@ -78,8 +78,8 @@ CLI::App& add_arguments(CLI::App& program, CreateArguments& arguments) {
        "Make a mesh of an ellipsoid, a superellipsoid or an SH series",
        {"ellipsoid grain.ply --semi-axes 1 0.8 0.6 -n 500",
         "superellipsoid rod.stl --semi-axes 2 1 1 --exponents 1 0.3", "grain.json grain.ply"},
-       "With --placement on-surface the nodes lie on the surface itself, as with "
-       "--method as-published.",
+       "By default the nodes lie on the surface itself. With --placement fitted the mesh has "
+       "exactly its volume.",
        true});
   add_typed(
       app, "surface",

@@ -195,11 +195,13 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
                     "Mesh to which errors and distances are measured. Of labels, the grey values "
                     "from which wscvt segment made them: their blur then corrects areas and false "
                     "contacts");
-  add_file_argument(app, "-o,--output", arguments.folder, "Output folder, for the contacts")
+  add_file_argument(app, "-o,--output", arguments.folder,
+                    "Output folder, for the contacts of labels")
       ->type_name("OUT");
-  app.add_flag("--parts", arguments.parts,
-               "Measure GRAIN as convex parts, each connected part by itself: their distances and "
-               "volume");
+  app.add_flag(
+      "--parts", arguments.parts,
+      "Measure each connected part of GRAIN by itself, as convex parts: their distances and "
+      "volume");
   const auto add = [&](double& value, const NumberOption<double>& option) {
     add_number(app, "--" + std::string(option.key), value, option);
   };

@@ -118,8 +118,10 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
       ->type_name("X,Y,Z")
       ->allow_extra_args(false);
   add_number(app, "--seed", arguments.options.seed, sample_seed_option);
-  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option);
-  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option);
+  add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option)
+      ->description("Remesh all fragments at once with about this number of nodes of each");
+  add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option)
+      ->description("Remesh all fragments at once with this mean edge length");
   app.add_option("--format", arguments.format,
                  "Ending of the fragments' files: that of a mesh, urdf, xml (MuJoCo) or shp "
                  "(Rockable, exaDEM). Default: ply")

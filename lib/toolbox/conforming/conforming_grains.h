@@ -25,14 +25,10 @@ struct ConformingOptions {
 };
 
 inline constexpr NumberOption<double> edge_length_option = {
-    "edge-length", "mean edge length",
-    0.0,           std::numeric_limits<double>::infinity(),
-    Ends::Both,    "0 for three voxels, or the edges of the grain that is divided"};
+    "edge-length", "mean edge length", 0.0, std::numeric_limits<double>::infinity()};
 
-inline constexpr NumberOption<int> wall_nodes_option = {
-    "nodes",    "about this number of nodes of each grain",
-    0,          1000000,
-    Ends::Both, "instead of one edge length. 0: as the edge length says"};
+inline constexpr NumberOption<int> wall_nodes_option = {"nodes", "number of nodes of each grain", 0,
+                                                        1000000};
 
 /// Throws Error(InvalidInput) for options out of range and for both an edge length and nodes.
 void check_conforming_options(const ConformingOptions& options);

@@ -26,12 +26,9 @@ namespace wscvt {
 
 /// Density of the grain in a .molecule file.
 inline constexpr NumberOption<double> clump_density_option = {
-    "density",
-    "density",
-    0.0,
-    std::numeric_limits<double>::infinity(),
-    Ends::Neither,
-    "mass per unit volume in .molecule, and of a packing. Else the engine's script sets it"};
+    "density",     "density",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Neither, "mass per unit volume in .molecule"};
 
 /// Returns the endings above.
 const std::vector<std::string>& clump_endings();

@@ -15,12 +15,9 @@ namespace wscvt {
 
 /// Density of a grain in the files of engines that need masses.
 inline constexpr NumberOption<double> parts_density_option = {
-    "density",
-    "density",
-    0.0,
-    std::numeric_limits<double>::infinity(),
-    Ends::Neither,
-    "mass per unit volume, for mass and inertia in .urdf and .xml, and of a packing"};
+    "density",     "density",
+    0.0,           std::numeric_limits<double>::infinity(),
+    Ends::Neither, "mass per unit volume, for mass and inertia in .urdf and .xml"};
 
 /// Returns the endings of files of parts: ".obj", ".urdf", ".xml".
 const std::vector<std::string>& part_endings();

@@ -42,9 +42,8 @@ inline constexpr NumberOption<std::int64_t> smallest_option = {
 inline constexpr FlagOption at_border_option = {
     "at-border", "include grains at the border",
     "although it cuts them; without this option they are only listed"};
-inline constexpr FlagOption parts_option = {"parts", "make each part of a label a grain",
-                                            "with a new number; faces of voxels connect a part. In "
-                                            "a batch, also make each body of a mesh a grain"};
+inline constexpr FlagOption parts_option = {"parts", "make each connected part of a label a grain",
+                                            "with a new number; faces of voxels connect a part"};
 inline constexpr NumberOption<std::int64_t> channel_option = {"channel", "channel", 1, 1000000};
 inline constexpr NumberOption<std::int64_t> frame_option = {"time", "point in time (frame)", 1,
                                                             1000000};

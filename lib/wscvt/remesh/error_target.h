@@ -25,10 +25,11 @@ struct EnumerationTable<ErrorMeasure> {
   static constexpr std::string_view key = "error-measure";
   static constexpr std::string_view subject = "error measure";
   static constexpr Enumerator<ErrorMeasure> rows[] = {
-      {ErrorMeasure::Volume, "volume", "volume"},
-      {ErrorMeasure::Area, "area", "area"},
-      {ErrorMeasure::Sphericity, "sphericity", "sphericity", "sphericity of Wadell"},
-      {ErrorMeasure::Inertia, "inertia", "inertia", "inertia tensor"},
+      {ErrorMeasure::Volume, "volume", "volume", "volume, in % of the scan's"},
+      {ErrorMeasure::Area, "area", "area", "area, in % of the scan's"},
+      {ErrorMeasure::Sphericity, "sphericity", "sphericity",
+       "sphericity of Wadell, in % of the scan's"},
+      {ErrorMeasure::Inertia, "inertia", "inertia", "inertia tensor, in % of the scan's"},
       {ErrorMeasure::Distance, "distance", "RMS distance",
        "two-sided rms distance, in % of the equivalent radius"},
   };
