@@ -431,5 +431,65 @@ TEST_F(HeaderVolumes, ReadsVtiPackedByLz4) {
   }
 }
 
+// A scan of 16 bits with noise, labels, labels that look like swapped ones, and floats.
+TEST_F(HeaderVolumes, DoubtsTheByteOrder) {
+  made_ = MadeVolume({30, 28, 26});
+  made_.fill(9000, [](const Vector3&) { return true; });
+  made_.fill_ball(21000, {15, 14, 13}, 9.0);
+  for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+    made_.labels[k] += static_cast<Label>(k * 7919 % 1009);
+  }
+  const auto read_grey = [&](const std::string& name) {
+    const auto volume = open_volume(path(name));
+    volume->read_grey_values();
+    all_of(*volume);
+    return volume->warnings().size();
+  };
+  const auto refused_grey = [&](const std::string& name, const std::string& word) {
+    const std::string told = test::refusal(ErrorCode::InputOutput, [&] { read_grey(name); });
+    EXPECT_NE(told.find(word), std::string::npos) << told;
+  };
+  write("little.raw", made_.bytes<std::uint16_t>());
+  const std::string raw = R"({"dimensions": [30, 28, 26], "file": "little.raw", "spacing": 1, )";
+  write("a.json", raw + R"("type": "uint16"})");
+  EXPECT_EQ(read_grey("a.json"), 0U);
+  write("a.json", raw + R"("type": "int16", "byte_order": "big"})");
+  refused_grey("a.json", "\"byte_order\": \"little\"");
+  write("a.nrrd", nrrd("encoding: raw\n\n") + made_.bytes<std::uint16_t>(true));
+  refused_grey("a.nrrd", "endian: big");
+  write("a.mha", meta("BinaryDataByteOrderMSB = True\nElementDataFile = LOCAL\n", "MET_UINT") +
+                     made_.bytes<std::uint32_t>());
+  refused_grey("a.mha", "BinaryDataByteOrderMSB = False");
+  write("a.mha", meta("BinaryDataByteOrderMSB = True\nElementDataFile = LOCAL\n", "MET_UINT") +
+                     made_.bytes<std::uint32_t>(true));
+  EXPECT_EQ(read_grey("a.mha"), 0U);
+
+  const auto warnings_of_labels = [&](const std::vector<Label>& values, bool big) {
+    made_ = MadeVolume({30, 28, 26});
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      made_.fill_ball(values[k], {5.0 + 7.0 * static_cast<double>(k), 14, 13}, 3.4);
+    }
+    write("b.nrrd", nrrd("encoding: raw\nspacings: 1 1 1\n\n") + made_.bytes<std::uint16_t>(big));
+    const auto volume = open_volume(path("b.nrrd"));
+    all_of(*volume);
+    all_of(*volume);
+    return volume->warnings().size();
+  };
+  EXPECT_EQ(warnings_of_labels({1, 2, 300}, true), 1U);
+  EXPECT_EQ(warnings_of_labels({1, 2, 300}, false), 0U);
+  EXPECT_EQ(warnings_of_labels({256, 512, 768}, false), 0U);
+  EXPECT_EQ(warnings_of_labels({4097}, false), 0U) << "two numbers may be anything";
+  EXPECT_EQ(warnings_of_labels({}, false), 0U);
+
+  made_.fill_ball(3, {15, 14, 13}, 9.0);
+  std::string floats;
+  for (const Label label : made_.labels) {
+    const auto value = static_cast<float>(label);
+    std::string four(reinterpret_cast<const char*>(&value), sizeof value);
+    floats += std::string(four.rbegin(), four.rend());
+  }
+  expect_refused_of("c.nrrd", nrrd("encoding: raw\n\n", "float") + floats, {"endian: big"});
+}
+
 }  // namespace
 }  // namespace wscvt
