@@ -491,5 +491,24 @@ TEST_F(HeaderVolumes, DoubtsTheByteOrder) {
   expect_refused_of("c.nrrd", nrrd("encoding: raw\n\n", "float") + floats, {"endian: big"});
 }
 
+TEST_F(HeaderVolumes, HonoursLeftHandedSpacesOfNrrd) {
+  const auto placed = [&](const std::string& space) {
+    write("a.nrrd", nrrd("space: " + space +
+                         "\nspace directions: (2,0,0) (0,3,0) (0,0,4)\nspace origin: (5,6,7)\n"
+                         "encoding: raw\n\n") +
+                        made_.bytes<std::uint16_t>());
+    return geometry("a.nrrd").point({1.5, 0.5, 0.5});  // the middle of the second voxel
+  };
+  for (const char* space :
+       {"left-anterior-superior", "LAS", "3D-left-handed", "3D-left-handed-time",
+        "right-posterior-superior", "Left-Anterior-Superior-Time", "LAST"}) {
+    EXPECT_LT((placed(space) - Vector3(-7, 6, 7)).norm(), 1e-12) << space;
+  }
+  for (const char* space : {"right-anterior-superior", "RAS", "left-posterior-superior", "LPS",
+                            "3D-right-handed", "scanner-xyz", "LPST"}) {
+    EXPECT_LT((placed(space) - Vector3(7, 6, 7)).norm(), 1e-12) << space;
+  }
+}
+
 }  // namespace
 }  // namespace wscvt

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <set>
@@ -29,6 +30,7 @@ struct NrrdHeader {
   bool has_ends = false;         ///< axis mins or axis maxs
   std::vector<std::optional<Vector3>> directions;
   Vector3 origin = Vector3::Zero();
+  bool is_left_handed = false;  ///< the space
   std::vector<std::string> units;
   std::string data_file;
   std::vector<std::string> list;  ///< of `data file: LIST`
@@ -69,14 +71,46 @@ std::vector<std::optional<Vector3>> directions_in(const std::string& text, const
   return directions;
 }
 
+/// Returns whether a space is left-handed, such as "left-anterior-superior" or "LAS". Right,
+/// anterior and superior are the axes x, y and z of a right-handed space.
+bool is_left_handed(const std::string& space) {
+  if (space.rfind("3d-left-handed", 0) == 0) return true;
+  std::string letters;
+  for (const char* const word :
+       {"right", "left", "anterior", "posterior", "superior", "inferior"}) {
+    const std::size_t place = space.find(word);
+    if (place != std::string::npos) letters += word[0];
+  }
+  const bool is_short =
+      letters.empty() && (space.size() == 3 || (space.size() == 4 && space[3] == 't'));
+  if (is_short) letters = space.substr(0, 3);
+  const auto count = [&](const char* any) {
+    return std::count_if(letters.begin(), letters.end(),
+                         [&](char c) { return std::strchr(any, c) != nullptr; });
+  };
+  return letters.size() == 3 && count("rl") == 1 && count("ap") == 1 && count("si") == 1 &&
+         count("lpi") % 2 == 1;
+}
+
 /// Fields that do not affect the position or type of voxels.
 bool is_passed_over(const std::string& name) {
-  static const std::set<std::string> names = {"space",   "space dimension", "measurement frame",
-                                              "content", "number",          "thicknesses",
-                                              "centers", "centerings",      "labels",
-                                              "min",     "block size",      "blocksize",
-                                              "max",     "old min",         "oldmin",
-                                              "old max", "sample units",    "sampleunits",
+  static const std::set<std::string> names = {"space dimension",
+                                              "measurement frame",
+                                              "content",
+                                              "number",
+                                              "thicknesses",
+                                              "centers",
+                                              "centerings",
+                                              "labels",
+                                              "min",
+                                              "block size",
+                                              "blocksize",
+                                              "max",
+                                              "old min",
+                                              "oldmin",
+                                              "old max",
+                                              "sample units",
+                                              "sampleunits",
                                               "oldmax"};
   return names.count(name) > 0;
 }
@@ -108,6 +142,8 @@ void read_field(const std::string& name, const std::string& value, const HeaderF
     header.has_ends = true;
   } else if (name == "space directions") {
     header.directions = directions_in(value, file);
+  } else if (name == "space") {
+    header.is_left_handed = is_left_handed(lower_case(value));
   } else if (name == "space origin") {
     header.origin = vector_in(value, file);
   } else if (name == "space units" || name == "units") {
@@ -215,7 +251,13 @@ void set_geometry(const NrrdHeader& header, const std::vector<VolumeAxis>& axes,
     }
   }
   if (header.directions.empty()) require_spacing(lattice.diagonal(), choice, path);
-  set_lattice(geometry, lattice, header.origin, choice, path);
+  Vector3 origin = header.origin;
+  if (header.is_left_handed && !header.directions.empty()) {
+    // Meshes are right-handed: without this the grains would be mirror images.
+    lattice.row(0) *= -1.0;
+    origin.x() *= -1.0;
+  }
+  set_lattice(geometry, lattice, origin, choice, path);
 }
 
 /// Returns Slicer's names of the segments of a .seg.nrrd, for the selected layer.
