@@ -262,6 +262,21 @@ struct Nifti {
   }
 };
 
+TEST_F(ArrayVolumes, TakesSinglePrecisionForTheDecimalsItMeans) {
+  Nifti nifti;
+  nifti.sform = 0;
+  nifti.scale = 0.2;
+  write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>());
+  const VolumeGeometry placed = geometry("a.nii");
+  EXPECT_EQ(placed.axes(0, 0), 0.1);
+  EXPECT_EQ(placed.axes(1, 1), 0.05);
+  EXPECT_EQ(placed.axes(2, 2), 0.4);
+  nifti.version = 2;
+  nifti.scale = 0.3;
+  write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>());
+  EXPECT_EQ(geometry("a.nii").axes(0, 0), 0.3 * 0.5);
+}
+
 TEST_F(ArrayVolumes, ReadsNifti) {
   for (const int version : {1, 2}) {
     for (const bool big : {false, true}) {

@@ -120,9 +120,31 @@ TEST_F(LabelVolumeOfAFile, KeepsPlaceSizeAndUnitOfNrrd) {
   VolumeChoice choice;
   choice.voxel_size = Vector3(1.0, 2.0, 4.0);
   const VolumeGeometry told = open_volume(path("a.nrrd"), choice)->geometry();
-  EXPECT_LT((told.point({1.0, 1.0, 1.0}) - Vector3(1.0, 2.0, 4.0)).norm(), 1e-15);
+  // The file's axes are left-handed.
+  EXPECT_LT((told.point({1.0, 1.0, 1.0}) - Vector3(-1.0, 2.0, 4.0)).norm(), 1e-15);
   choice.voxel_size = Vector3(1.0, 0.0, 1.0);
   EXPECT_ERROR(open_volume(path("a.nrrd"), choice), InvalidInput);
+}
+
+// The option replaces the lengths, but a grain stays on its side of the mirror.
+TEST_F(LabelVolumeOfAFile, AVoxelSizeMakesNoMirrorImage) {
+  VolumeChoice choice;
+  choice.voxel_size = Vector3(1.0, 2.0, 4.0);
+  const auto handedness = [&](const std::string& directions, const VolumeChoice& chosen) {
+    write("a.nrrd", nrrd("uchar", "space directions: " + directions + "\nencoding: raw\n\n") +
+                        made_.bytes<std::uint8_t>());
+    return geometry("a.nrrd", chosen).axes.determinant();
+  };
+  for (const char* directions :
+       {"(-1,0,0) (0,1,0) (0,0,1)", "(1,0,0) (0,0,1) (0,1,0)", "(0.5,0,0) (0,0.5,0) (0,0,-0.5)"}) {
+    EXPECT_LT(handedness(directions, {}), 0.0) << directions;
+    EXPECT_DOUBLE_EQ(handedness(directions, choice), -8.0) << directions;
+  }
+  EXPECT_DOUBLE_EQ(handedness("(-1,0,0) (0,-1,0) (0,0,1)", choice), 8.0);
+  EXPECT_DOUBLE_EQ(handedness("(0,0,0) (0,1,0) (0,0,1)", choice), 8.0) << "the file has no hand";
+  write("a.json", R"({"dimensions": [7, 5, 3], "type": "uint8"})");
+  write("a.raw", made_.bytes<std::uint8_t>());
+  EXPECT_LT((geometry("a.json", choice).point({1, 1, 1}) - Vector3(1, 2, 4)).norm(), 1e-15);
 }
 
 // pigz -i, bgzip and cat of several files make them: streams one behind the other, as gzip's

@@ -106,13 +106,18 @@ void set_geometry(const nifti_image& image, bool have_lengths, const VolumeChoic
                   const std::string& path, VolumeGeometry& geometry) {
   geometry.counts = voxel_counts({image.nx, image.ny, image.nz}, path);
   // sform, qform, or only the sizes, in this order of preference.
-  Eigen::Matrix3d axes = Vector3(image.dx, image.dy, image.dz).asDiagonal();
+  const Vector3 lengths(image.dx, image.dy, image.dz);
+  Eigen::Matrix3d axes = lengths.asDiagonal();
   Vector3 origin = Vector3::Zero();
   if (image.sform_code > 0 || image.qform_code > 0) {
     const nifti_dmat44& placed = image.sform_code > 0 ? image.sto_xyz : image.qto_xyz;
     for (Eigen::Index row = 0; row < 3; ++row) {
       for (Eigen::Index column = 0; column < 3; ++column) axes(row, column) = placed.m[row][column];
       origin[row] = placed.m[row][3];
+    }
+    // The library makes these axes from lengths of single precision.
+    for (Eigen::Index k = 0; image.sform_code <= 0 && k < 3; ++k) {
+      axes.col(k) *= decimal_of(lengths[k]) / lengths[k];
     }
   }
   geometry.has_size = have_lengths || image.sform_code > 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -276,15 +277,26 @@ void require_spacing(const Vector3& spacing, const VolumeChoice& choice, const s
                           mention("voxel-size") + ".");
 }
 
+double decimal_of(double value) {
+  const auto single = static_cast<float>(value);
+  if (!std::isfinite(value) || static_cast<double>(single) != value) return value;
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), single).ptr;
+  return number_in({text.data(), static_cast<std::size_t>(end - text.data())}).value_or(value);
+}
+
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
                  const VolumeChoice& choice, const std::string& path) {
-  geometry.axes = axes;
-  geometry.corner = origin - axes * Vector3::Constant(0.5);
+  geometry.axes = axes.unaryExpr(&decimal_of);
+  geometry.corner = origin.unaryExpr(&decimal_of) - geometry.axes * Vector3::Constant(0.5);
   if (choice.voxel_size) {
+    const double handedness = axes.determinant();
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Eigen::Index axis = geometry.order[static_cast<std::size_t>(k)];
       geometry.axes.col(k) = (*choice.voxel_size)[axis] * Vector3::Unit(axis);
     }
+    // The file's directions are replaced too, but no grain becomes its mirror image.
+    if (handedness * geometry.axes.determinant() < 0.0) geometry.axes.row(0) *= -1.0;
     geometry.corner = Vector3::Zero();
     geometry.has_size = true;
     if (!choice.unit.empty()) geometry.unit = choice.unit;

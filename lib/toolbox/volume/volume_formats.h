@@ -127,9 +127,14 @@ void refuse_array_choice(const VolumeChoice& choice, const std::string& path);
 /// 0, unless a voxel size was chosen.
 void require_spacing(const Vector3& spacing, const VolumeChoice& choice, const std::string& path);
 
-/// Sets the lattice of a file whose voxels have their centres at `origin` + `axes` (i, j, k). If a
-/// voxel size was chosen, sets the lattice at its multiples, along x, y and z in the order of
-/// geometry.order. Throws Error(InputOutput), naming the file, if voxels have no volume.
+/// Returns the decimal number that a number of single precision means: 0.1 for the float next to
+/// it. Other numbers are returned unchanged.
+double decimal_of(double value);
+
+/// Sets the lattice of a file whose voxels have their centres at `origin` + `axes` (i, j, k), each
+/// number as decimal_of. If a voxel size was chosen, sets the lattice at its multiples, along x, y
+/// and z in the order of geometry.order, along -x if the file's axes are of the other hand. Throws
+/// Error(InputOutput), naming the file, if voxels have no volume.
 void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Vector3& origin,
                  const VolumeChoice& choice, const std::string& path);
 
