@@ -262,6 +262,34 @@ struct Nifti {
   }
 };
 
+TEST_F(ArrayVolumes, TellsTwoSizesInNifti) {
+  Nifti nifti;
+  const auto warnings = [&](const VolumeChoice& chosen) {
+    write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>());
+    const auto volume = open_volume(path("a.nii"), chosen);
+    const auto& all = volume->warnings();
+    return std::count_if(all.begin(), all.end(), [](const Sentence& warning) {
+      return warning.text().find("two sizes") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(warnings({}), 0);
+  nifti.scale = 10.0;
+  EXPECT_EQ(warnings({}), 1);
+  const auto volume = open_volume(path("a.nii"));
+  EXPECT_NE(
+      volume->warnings().front().text().find("0.5 x 0.25 x 2 in its sform, 5 x 2.5 x 20 in its"),
+      std::string::npos)
+      << volume->warnings().front().text();
+  VolumeChoice choice;
+  choice.voxel_size = Vector3(0.5, 0.5, 0.5);
+  EXPECT_EQ(warnings(choice), 0);
+  nifti.sform = 0;
+  EXPECT_EQ(warnings({}), 0);
+  nifti.sform = 1;
+  nifti.has_sizes = false;
+  EXPECT_EQ(warnings({}), 0);
+}
+
 TEST_F(ArrayVolumes, TakesSinglePrecisionForTheDecimalsItMeans) {
   Nifti nifti;
   nifti.sform = 0;

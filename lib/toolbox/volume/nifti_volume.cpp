@@ -142,6 +142,23 @@ std::unique_ptr<LabelVolume> volume_of_voxels(const VolumeGeometry& geometry, co
       path);
 }
 
+/// Warns if the sform, which is used, has other lengths of voxels than the rest of the header.
+void compare_lengths(const nifti_image& image, bool have_lengths, const VolumeChoice& choice,
+                     LabelVolume& volume) {
+  if (image.sform_code <= 0 || !have_lengths || choice.voxel_size) return;
+  const Vector3 used = volume.geometry().axes.colwise().norm();
+  const Vector3 others = Vector3(image.dx, image.dy, image.dz).cwiseAbs();
+  constexpr double rounding = 1e-3;
+  if ((used - others).cwiseAbs().cwiseQuotient(used).maxCoeff() < rounding) return;
+  const auto text = [](const Vector3& lengths) {
+    return format_number(lengths[0], 4) + " x " + format_number(lengths[1], 4) + " x " +
+           format_number(lengths[2], 4);
+  };
+  volume.add_warning("The header has two sizes of voxels: " + text(used) + " in its sform, " +
+                     text(others) + " in its pixdim. The sform's was used. If it is wrong, give " +
+                     mention("voxel-size", "X,Y,Z") + ".");
+}
+
 /// Adds a whole number to the voxels, such as the -1024 of CT in DICOM. Other scales are left out:
 /// they change no order of grey values, but are not of labels.
 void apply_scale(const nifti_image& image, const std::string& path, LabelVolume& volume) {
@@ -192,6 +209,7 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
                         choice, path);
   std::unique_ptr<LabelVolume> volume = volume_of_voxels(geometry, type, data);
   apply_scale(*image, path, *volume);
+  compare_lengths(*image, have_lengths, choice, *volume);
   return volume;
 }
 
