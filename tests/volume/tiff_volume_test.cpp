@@ -739,5 +739,21 @@ TEST_F(TiffVolume, ReadsSlicesOfBmp) {
   expect_refused("slices", {"rec8.bmp"});
 }
 
+TEST_F(TiffVolume, RefusesTifffilesAxesWithXBeforeY) {
+  TiffPages stack = as();
+  for (const char* axes : {"ZYX", "QYX", "IYX", "TYX"}) {
+    stack.text = R"({"shape": [3, 5, 7], "axes": ")" + std::string(axes) + "\"}";
+    write_tiff(path("a.tif"), stack, pages());
+    if (axes[0] != 'T') expect_made("a.tif");
+  }
+  for (const auto& [axes, turn] : std::vector<std::pair<std::string, std::string>>{
+           {"ZXY", "0, 2, 1"}, {"XYZ", "2, 1, 0"}, {"YXZ", "2, 0, 1"}, {"YZX", "1, 0, 2"}}) {
+    stack.text = R"({"shape": [3, 5, 7], "axes": ")" + axes + "\"}";
+    expect_refused_of(stack, pages(), {axes, ".transpose(" + turn + ")", "\"axes\": \"ZYX\""});
+  }
+  stack.text = R"({"shape": [1, 3, 5, 7], "axes": "TZXY"})";
+  expect_refused_of(stack, pages(), {"TZXY", ".transpose(0, 2, 1)", "\"axes\": \"ZYX\""});
+}
+
 }  // namespace
 }  // namespace wscvt

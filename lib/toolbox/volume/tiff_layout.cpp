@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -162,6 +163,37 @@ std::size_t dimensions_of_page(const std::vector<std::int64_t>& counts, const Ti
   return 0;
 }
 
+/// Refuses axes whose order is not z, y, x: read as if it were, they would give mirror images.
+/// tifffile leaves dimensions of one out as it reads.
+void check_order_of(const std::string& all, const std::vector<std::int64_t>& counts,
+                    const std::string& path) {
+  std::string letters;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (counts[k] > 1 || all[k] == 'X' || all[k] == 'Y') letters += all[k];
+  }
+  std::string space;
+  std::string order;
+  std::string others;
+  for (std::size_t k = 0; k < letters.size(); ++k) {
+    const bool is_space = std::string("XYZ").find(letters[k]) != std::string::npos;
+    (is_space ? space : others) += letters[k];
+    if (!is_space) order += std::to_string(k) + ", ";
+  }
+  std::string sorted = space;
+  std::sort(sorted.rbegin(), sorted.rend());
+  if (space == sorted) return;
+  for (const char letter : sorted) order += std::to_string(letters.find(letter)) + ", ";
+  order.resize(order.size() - 2);
+  const std::string name = std::filesystem::path(path).filename().string();
+  refuse_volume(path,
+                "has the axes " + in_quotes(all) +
+                    " in tifffile's text, in another order than z, y, x. Save it in that order in "
+                    "Python: import tifffile; a = tifffile.imread(\"" +
+                    name + "\").transpose(" + order +
+                    "); tifffile.imwrite(\"zyx.tif\", a, metadata={\"axes\": \"" + others + sorted +
+                    "\"})");
+}
+
 /// Reads tifffile's text: {"shape": [2, 24, 28, 36], "axes": "CZYX"}; the last dimensions are the
 /// page's.
 TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPageShape& page,
@@ -196,6 +228,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   if (!letters.empty() && letters.size() != counts.size()) {
     refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
   }
+  check_order_of(letters, counts, path);
   const std::size_t of_page = dimensions_of_page(counts, page);
   if (of_page == 0) {
     refuse_volume(path, "has pages of " + std::to_string(page.height) + " x " +
