@@ -509,7 +509,12 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
   fs::rename(path("slices/s10.tif"), path("slices/s11.tif"));
   expect_made("slices");
   EXPECT_NE(notes("slices").back().find("Voxel size"), std::string::npos);
-  EXPECT_NE(notes("slices").at(1).find("between \"s9.tif\" and \"s11.tif\""), std::string::npos);
+  EXPECT_NE(open_volume(path("slices"))
+                ->warnings()
+                .at(0)
+                .text()
+                .find("between \"s9.tif\" and \"s11.tif\""),
+            std::string::npos);
 
   TiffPages odd = as();
   odd.height = 4;
@@ -737,6 +742,54 @@ TEST_F(TiffVolume, ReadsSlicesOfBmp) {
   expect_refused("slices", {"rec9.bmp", "8 bits", "32 bits"});
   fs::resize_file(path("slices/rec8.bmp"), 100);
   expect_refused("slices", {"rec8.bmp"});
+}
+
+TEST_F(TiffVolume, ReadsSlicesOfHexadecimalNumbers) {
+  make({5, 4, 21});
+  fs::create_directory(folder_ / "slices");
+  const auto name = [&](int z, int width) {
+    std::ostringstream text;
+    text << "slices/rec" << std::hex << std::setw(width) << std::setfill('0') << z + 7 << "_v.tif";
+    return path(text.str());
+  };
+  for (const int width : {2, 1}) {
+    for (int z = 0; z < 21; ++z) write_tiff(name(z, width), as(), {page(z)});
+    expect_made("slices");
+    EXPECT_NE(notes("slices")[0].find("hexadecimal"), std::string::npos);
+    EXPECT_EQ(open_volume(path("slices"))->warnings().size(), 0U);
+    fs::remove(name(4, width));  // b
+    EXPECT_EQ(open_volume(path("slices"))->warnings().size(), 1U);
+    fs::remove_all(folder_ / "slices");
+    fs::create_directory(folder_ / "slices");
+  }
+  // Decimal numbers, and one odd file.
+  for (int z = 0; z < 21; ++z) {
+    write_tiff(path("slices/rec" + std::to_string(100 + z) + ".tif"), as(), {page(z)});
+  }
+  write_tiff(path("slices/rec10a.tif"), as(), {page(3)});
+  expect_made("slices");
+  EXPECT_NE(notes("slices")[0].find("rec10a"), std::string::npos) << notes("slices")[0];
+}
+
+TEST_F(TiffVolume, WarnsOfAMissingSliceAndTellsAVolumeInTwoParts) {
+  make({5, 4, 8});
+  fs::create_directory(folder_ / "slices");
+  const auto file = [&](const std::string& before, int z) {
+    return path("slices/" + before + std::to_string(10 + 2 * z) + ".tif");
+  };
+  for (int z = 0; z < 8; ++z) write_tiff(file("rec", z), as(), {page(z)});
+  EXPECT_EQ(open_volume(path("slices"))->warnings().size(), 0U);
+  fs::remove(file("rec", 3));
+  const auto volume = open_volume(path("slices"));
+  ASSERT_EQ(volume->warnings().size(), 1U);
+  EXPECT_NE(volume->warnings()[0].text().find("between \"rec14.tif\" and \"rec18.tif\""),
+            std::string::npos);
+  for (int z = 4; z < 8; ++z) fs::rename(file("rec", z), file("upper", z));
+  expect_refused("slices", {"more than one series", "No number is in both"});
+  write_tiff(file("upper", 2), as(), {page(2)});
+  EXPECT_EQ(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("slices")); })
+                .find("No number is in both"),
+            std::string::npos);
 }
 
 TEST_F(TiffVolume, RefusesTifffilesAxesWithXBeforeY) {
