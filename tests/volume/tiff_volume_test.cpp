@@ -177,6 +177,23 @@ TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
             std::string::npos);
 }
 
+TEST_F(TiffVolume, TakesAResolutionPerCmWhereImageJsUnitMakesVoxelsFlat) {
+  TiffPages stack = as();
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=um\nspacing=0.25\n";
+  stack.resolution = 50000.0;  // of 0.2 um; along y half as many
+  stack.resolution_unit = RESUNIT_CENTIMETER;
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.2, 0.4, 0.25)).norm(), 1e-7);
+  EXPECT_NE(notes("a.tif")[0].find("per cm"), std::string::npos);
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=um\n";  // 1 um along z
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.2, 0.4, 1.0)).norm(), 1e-7);
+  stack.resolution_unit = RESUNIT_NONE;
+  write_tiff(path("a.tif"), stack, pages());
+  EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(2e-5, 4e-5, 1.0)).norm(), 1e-7);
+  EXPECT_EQ(open_volume(path("a.tif"))->warnings().size(), 1U);
+}
+
 TEST_F(TiffVolume, RefusesImageJsAxesInTwoUnits) {
   TiffPages stack = as();
   stack.resolution = 20.0;

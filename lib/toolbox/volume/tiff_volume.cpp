@@ -400,6 +400,23 @@ bool is_by_pages(const TiffLayout& layout) {
   return layout.writer.empty() || layout.writer == "tifffile";
 }
 
+/// Takes the page's resolution in its own unit where the text's unit would make the voxels flat by
+/// the ratio of both: some programs note um, but a resolution per cm. `per_cm`: the page's lengths.
+void take_unit_of_page(const Vector3& per_cm, TiffLayout& layout, Vector3& size) {
+  const double factor = layout.unit == "um" ? 1e4 : layout.unit == "nm" ? 1e7 : 0.0;
+  constexpr double flat = 100.0;
+  constexpr double far = 5.0;
+  const double taken = factor * per_cm.x();
+  const bool is_alike = size.z() < far * taken && taken < far * size.z();
+  if (size.z() < flat * size.x() || !is_alike) return;
+  size.x() = factor * per_cm.x();
+  size.y() = factor * per_cm.y();
+  layout.notes.push_back(
+      "The resolution was taken per cm or inch, as the TIFF says: in " + layout.unit +
+      ", as ImageJ notes it, the voxels would be flat. If this is wrong, give the size by " +
+      mention("voxel-size", "X,Y,Z") + ".");
+}
+
 /// Sets the lattice from the text of ImageJ or OME, or from the page's resolution.
 void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const Page& page,
                          TiffLayout& layout, const VolumeChoice& choice) {
@@ -420,6 +437,7 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
     // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
+    if (unit != RESUNIT_NONE) take_unit_of_page(*resolution, layout, size);
     const double cm = layout.unit == "inch" ? 2.54 : layout.unit == "cm" ? 1.0 : 0.1;
     const bool has_coarse_unit = cm >= 1.0 || layout.unit == "mm";
     if (has_coarse_unit && is_of_a_screen(cm * size, size)) {
