@@ -81,9 +81,10 @@ void add_simulation_arguments(CLI::App& app, RemeshJob& job) {
   add_files(app, "--node-table", "NAME", job.node_tables,
             "Write position, normal and area of every node, one file per grain in "
             "OUT/node-table: csv, vtp or shp");
-  add_files(app, "--sdf", "NAME", job.grids,
-            "Write signed distances to the repaired scan, on a grid, one file per grain in "
-            "OUT/sdf: npy, vti or json");
+  add_files(
+      app, "--sdf", "NAME", job.grids,
+      "Write grids of distances to the repaired scan, one file per grain in OUT/sdf: npy, vti "
+      "or json");
   add_options(app, job.simulation);
 }
 

@@ -73,8 +73,7 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
   add_remesh_arguments(app, arguments.job.remesh);
   add_simulation_arguments(app, arguments.job);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
-  nodes->description(nodes->get_description() +
-                     ". Several numbers, such as 100,300,1000, get one folder each");
+  nodes->description(nodes->get_description() + ". Several, such as 100,300, get one folder each");
   nodes->transform([&arguments](const std::string& text) {
     try {
       return largest_level(text, arguments.job.levels);

@@ -192,8 +192,7 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
                help_of(arguments.job.describe, describe_option));
   add_number(app, "--edge-length", arguments.walls.edge_length, edge_length_option)
       ->description(
-          "Remesh all grains at once with common walls and this mean edge length, 0 or more. "
-          "Default, and 0: three voxels");
+          "Remesh all grains at once with common walls and this mean edge length; 0: three voxels");
   add_number(app, "-n,--nodes", arguments.walls.nodes, wall_nodes_option)
       ->description(
           "Remesh all grains at once with common walls and about this number of nodes of each");

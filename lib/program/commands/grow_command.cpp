@@ -110,7 +110,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
          "--templates", arguments.templates,
          "Choose real grains with weights that represent the sample by these descriptors, with "
          "commas between: names as in the files of wscvt describe. Default: "
-         "sphericity_wadell,zingg_elongation_inertia,zingg_flatness_inertia,convexity")
+         "sphericity_wadell, zingg_elongation_inertia, zingg_flatness_inertia and convexity")
       ->option_text("[=NAMES]");
   add_typed(app, "-k,--count",
             [&arguments](std::string_view text) {
