@@ -213,6 +213,24 @@ TEST_F(MeshFormats, OfFiniteElementsOfOthersGiveTheirFaces) {
   expect_refusal("volume.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n1,1,1,1,1\n", "surface");
 }
 
+TEST_F(MeshFormats, OfAbaqusRefuseNodesThatLieElsewhere) {
+  const std::string nodes = "\n10,0,0,0\n20,1,0,0\n30,1,1,0\n40,0,1,.5\n";
+  const std::string faces = "*Element, type=S4\n1,10,20,30,40\n*Element, type=S3\n2,10,40,20\n";
+  EXPECT_EQ(read_mesh(file("plain.inp", "*Node, system=R" + nodes + faces)).triangles.size(), 3U);
+  expect_refusal("system.inp", "*SYSTEM\n1,2,3,1,3,3\n*Node" + nodes + faces, "line 1 moves nodes");
+  expect_refusal("round.inp", "*Node, nset=a, System=C" + nodes + faces, "cylindrical");
+  expect_refusal("ball.inp", "*Node, SYSTEM = s" + nodes + faces, "spherical");
+  expect_refusal("parts.inp", "*Heading\n*INCLUDE, INPUT=Mesh.inp\n" + faces, "\"Mesh.inp\"");
+  expect_refusal("beside.inp", "*Node, input=Nodes.txt\n" + faces, "\"Nodes.txt\"");
+  expect_refusal("beside.inp", "*Node" + nodes + "*Element, type=S3, input=e.txt\n", "\"e.txt\"");
+  expect_refusal("made.inp", "*Node" + nodes + faces + "*ELGEN\n2,3,1,1\n", "\"*elgen\"");
+  const MeshFile turned = read_mesh_file(
+      file("turned.inp", "*Node" + nodes + "*Transform, nset=a\n0,1,0,1,0,0\n" + faces));
+  ASSERT_EQ(turned.warnings.size(), 1U);
+  EXPECT_NE(turned.warnings[0].find("*TRANSFORM"), std::string::npos);
+  EXPECT_EQ(turned.mesh.points.size(), 4U);
+}
+
 TEST_F(MeshFormats, NameObjectsGroupsAndSolids) {
   const MeshFile obj =
       read_mesh_file(file("a.obj",

@@ -313,6 +313,42 @@ std::size_t corners_of_abaqus(const std::string& type) {
       "assemblies (Abaqus: Model > Edit Attributes).");
 }
 
+/// Refuses a keyword that puts nodes elsewhere, makes them, or has them in another file, and warns
+/// of one that looks so. `fields` are those of its line.
+void judge_abaqus_keyword(const std::vector<std::string_view>& fields, ByteReader& reader) {
+  const std::string keyword = lower_case(fields[0]);
+  const bool has_data = keyword == "*node" || keyword == "*element";
+  for (const std::string_view field : fields) {
+    const std::string option = lower_case(field);
+    const std::size_t equals = option.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string key(trimmed(std::string_view(option).substr(0, equals)));
+    const std::string_view value = trimmed(field.substr(equals + 1));
+    if (key == "input" && (has_data || keyword == "*include")) {
+      reader.fail_line("has its lines in the file " + in_quotes(value) +
+                       ", which is not read. Put them in the place of this line.");
+    }
+    if (keyword == "*node" && key == "system" && lower_case(value) != "r") {
+      reader.fail_line("gives nodes in " +
+                       std::string(lower_case(value) == "c" ? "cylindrical" : "spherical") +
+                       " coordinates, which are not read. Write x, y and z.");
+    }
+  }
+  if (keyword == "*system") {
+    reader.fail_line(
+        "moves nodes by *SYSTEM, which is not read. Write their coordinates without it.");
+  }
+  for (const char* const maker : {"*ngen", "*nfill", "*ncopy", "*nmap", "*elgen", "*elcopy"}) {
+    if (keyword != maker) continue;
+    reader.fail_line("makes nodes or elements by " + in_quotes(keyword) +
+                     ", which is not read. Write them all, as Abaqus/CAE does.");
+  }
+  if (keyword == "*transform") {
+    reader.warn(
+        "has *TRANSFORM, which turns displacements and loads and no node. It was left out.");
+  }
+}
+
 }  // namespace
 
 void read_gmsh(ByteReader& reader, MeshFile& file) {
@@ -339,6 +375,7 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
     const std::vector<std::string_view> fields = fields_of(text);
     if (fields.empty()) continue;
     if (text.front() == '*') {
+      judge_abaqus_keyword(fields, reader);
       const std::string keyword = lower_case(fields[0]);
       block = keyword == "*node"       ? Block::Nodes
               : keyword == "*instance" ? Block::Instance
