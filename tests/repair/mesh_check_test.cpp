@@ -859,6 +859,20 @@ TEST(MeshCheck, RefusesAKleinBottle) {
   expect_mentions(refusal(mesh), {"not orientable"});
 }
 
+// A shrink-wrap of all would join them.
+TEST(MeshCheck, LeadsFromOpenPartsToTheirRemeshes) {
+  const IndexedMesh bowl = without_cap(0.5);
+  for (const IndexedMesh& parts : {joined(bowl, moved(bowl, 1.0, {5, 0.5, 0})),
+                                   joined(bowl, moved(bowl, 0.9, {0.5, 0.3, 0.2})),
+                                   joined(sphere(2), moved(bowl, 1.0, {1.5, 0.3, 0.2}))}) {
+    MeshCheckOptions options;
+    options.repaired_area_limit_percent = 1.0;
+    const std::string told = refusal(parts, options);
+    expect_mentions(told, {"2 separate bodies", "open", "--parts"});
+    EXPECT_EQ(told.find("shrink-wrap"), std::string::npos) << told;
+  }
+}
+
 TEST(MeshCheck, RefusesPartsOfComparableVolume) {
   const IndexedMesh halves = joined(sphere(2), moved(sphere(2), 1.0, {5, 0, 0}));
   expect_mentions(refusal(halves), {"2 separate bodies", "50 %", "Split in Connected Components"});

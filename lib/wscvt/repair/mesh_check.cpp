@@ -42,6 +42,7 @@ std::string count_of(std::size_t count, const std::string& noun) {
 struct OtherComponent {
   std::size_t faces = 0;
   double volume = 0.0;
+  bool is_open = false;
   std::vector<Vector3> points;  // on it, if possible not on the kept component
 };
 
@@ -92,14 +93,16 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
     if (c == main) continue;
     list[c].faces = components.list[c].faces;
     list[c].volume = std::abs(components.list[c].volume);
+    list[c].is_open = components.list[c].boundary_edges > 0;
     others.push_back(list[c]);
   }
 }
 
 /// Reports the other components, and refuses the mesh if the outer components are too large.
-/// `seam`: distance of open edges from each other, 0 if they are no seam.
+/// `seam`: distance of open edges from each other, 0 if they are no seam. `is_open`: `kept` was
+/// open before it was filled.
 void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& others, double seam,
-                  const MeshCheckOptions& options, const Execution& execution,
+                  bool is_open, const MeshCheckOptions& options, const Execution& execution,
                   MeshCheckReport& report) {
   report.components = others.size() + 1;
   if (others.empty()) return;
@@ -111,6 +114,7 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   double outer_volume = 0.0;
   double inner_volume = 0.0;
   std::size_t crossing = 0;
+  std::size_t open = is_open ? 1 : 0;
   auto next = inside.begin();
   for (const OtherComponent& other : others) {
     const auto end = next + static_cast<std::ptrdiff_t>(other.points.size());
@@ -121,13 +125,14 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
     const bool is_inner = 10 * within >= 9 * other.points.size();
     if (is_inner) ++report.inner_components;
     if (10 * within > other.points.size() && !is_inner) ++crossing;
+    open += other.is_open ? 1 : 0;
     (is_inner ? inner_volume : outer_volume) += other.volume;
   }
   report.inner_volume_fraction = inner_volume / report.volume;
   report.dropped_volume_fraction = outer_volume / (outer_volume + report.volume);
   if (report.dropped_volume_fraction > options.dropped_volume_limit) {
     if (seam > 0.0) refuse(open_seam_sentence(seam));
-    if (crossing > 0) {
+    if (crossing > 0 && open == 0) {
       refuse("The mesh has " + count_of(crossing + 1, "closed surface") +
              " that cross each other, so it is not clear what the grain is. Join them by " +
              mention(shrink_wrap_option, 1.0) + ".");
@@ -135,7 +140,9 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
     refuse("The mesh has " + std::to_string(report.components - report.inner_components) +
            " separate bodies and the largest has only " +
            format_percent(1.0 - report.dropped_volume_fraction) +
-           " of their volume, so there is no main body. Split the mesh (wscvt extract MESH OUT; in "
+           " of their volume, so there is no main body" +
+           (open > 0 ? "; " + std::to_string(open) + (open == 1 ? " is" : " are") + " open" : "") +
+           ". Split the mesh (wscvt extract MESH OUT; in "
            "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
            "separately, or all of them by wscvt batch MESH -o OUT --parts.");
   }
@@ -476,8 +483,9 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.back_to_back_area_fraction = duplicates.folded_area / report.area;
   report.flap_area_fraction = flap_area / report.area;
   report.filled_area_fraction = filled.area / report.area;
+  // First the bodies: a shrink-wrap of all would join them.
+  judge_others(mesh, others, seam, boundary_edges > 0, options, execution, report);
   judge_repair(options, boundary_edges, filled.widest / diagonal, seam, report);
-  judge_others(mesh, others, seam, options, execution, report);
   report.has_voxel_steps = has_voxel_steps(mesh);
   result.mesh = std::move(mesh);
   execution.report(1.0, stage);
