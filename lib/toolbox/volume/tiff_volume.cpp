@@ -405,7 +405,7 @@ bool is_by_pages(const TiffLayout& layout) {
 void take_unit_of_page(const Vector3& per_cm, TiffLayout& layout, Vector3& size) {
   const double factor = layout.unit == "um" ? 1e4 : layout.unit == "nm" ? 1e7 : 0.0;
   constexpr double flat = 100.0;
-  constexpr double far = 5.0;
+  constexpr double far = 10.0;
   const double taken = factor * per_cm.x();
   const bool is_alike = size.z() < far * taken && taken < far * size.z();
   if (size.z() < flat * size.x() || !is_alike) return;
