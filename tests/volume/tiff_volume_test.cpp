@@ -389,6 +389,28 @@ TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {
   }
 }
 
+// A raw file that was imported in the wrong order, and saved.
+TEST_F(TiffVolume, DoubtsTheByteOrder) {
+  make({30, 20, 9});
+  for (std::size_t k = 0; k < made_.labels.size(); ++k) {
+    made_.labels[k] = static_cast<Label>((k % 30 < 14 ? 9000 : 21000) + k * 7919 % 1009);
+  }
+  for (const bool is_swapped : {false, true}) {
+    if (is_swapped) {
+      for (Label& label : made_.labels) label = (label & 0xffU) << 8U | label >> 8U;
+    }
+    write_tiff(path("a.tif"), as(), pages());
+    const auto volume = open_volume(path("a.tif"));
+    const std::size_t before = volume->warnings().size();
+    all_of(*volume);
+    EXPECT_EQ(volume->warnings().size() - before, is_swapped ? 1U : 0U);
+    const auto grey = open_volume(path("a.tif"));
+    grey->read_grey_values();
+    const std::string told = test::refusal(ErrorCode::InputOutput, [&] { all_of(*grey); });
+    EXPECT_EQ(told.find("Import the raw numbers") != std::string::npos, is_swapped) << told;
+  }
+}
+
 TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
   TiffPages stack = as();
   stack.samples = 3;

@@ -6,6 +6,9 @@
 #include <cstring>
 #include <type_traits>
 
+#include "toolbox/volume/volume_choice.h"
+#include "wscvt/base/text.h"
+
 namespace wscvt {
 
 namespace {
@@ -31,6 +34,23 @@ bool is_odd(Value value) {
   constexpr Value most = 1e15F;
   const Value size = std::abs(value);
   return !(size < most && size * most > Value{1});
+}
+
+/// Says that the numbers of a file are in the wrong byte order.
+Sentence sentence_of_order(const VoxelType& type, const std::string& path) {
+  const std::string found =
+      "has numbers whose bytes are in the wrong order: neighbours are alike only in the other. ";
+  const std::string ending = ending_of(path);
+  if (ending == ".tif" || ending == ".tiff") {
+    return found +
+           "Import the raw numbers again in the other order (Fiji: Little-endian byte order), and "
+           "save them again.";
+  }
+  const std::string right = type.big_endian ? "little" : "big";
+  return found + "Correct the header (\"byte_order\": \"" + right +
+         "\" in .json, endian: " + right +
+         " in .nrrd, BinaryDataByteOrderMSB = " + (type.big_endian ? "False" : "True") +
+         " in .mhd), or export the file again.";
 }
 
 }  // namespace
@@ -95,6 +115,17 @@ bool ByteOrderCheck::is_swapped() const {
   constexpr double far_more = 6.0;
   return values_.size() == enough_values && (type_.bytes > 2 || has_low_bytes_) &&
          differences_ > far_more * swapped_differences_;
+}
+
+void ByteOrderCheck::refuse_swapped(const std::string& path) const {
+  if (is_swapped()) refuse_volume(path, sentence_of_order(type_, path));
+}
+
+void ByteOrderCheck::finish(LabelVolume& volume, bool as_grey, const std::string& path) {
+  if (is_finished_) return;
+  if (as_grey) refuse_swapped(path);
+  if (is_swapped()) volume.add_warning("\"" + path + "\" " + sentence_of_order(type_, path));
+  is_finished_ = true;
 }
 
 }  // namespace wscvt

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <set>
+#include <string>
 
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/voxel_rows.h"
@@ -19,7 +20,7 @@ class ByteOrderCheck {
   /// Takes row number `row`, from 0, if it is one of those to look at. `bytes` are the voxels along
   /// x, in the order of the header.
   void look_at(const char* bytes, std::int64_t row) {
-    if (type_.bytes > 1 && row % step_ == 0) take(bytes);
+    if (type_.bytes > 1 && !is_finished_ && row % step_ == 0) take(bytes);
   }
 
   /// Takes a row in any case.
@@ -28,6 +29,13 @@ class ByteOrderCheck {
   /// Returns whether the rows so far are of the other order. Numbers of 16 bits which are all
   /// multiples of 256 may be labels of either order: they are not accused.
   bool is_swapped() const;
+
+  /// Throws Error(InputOutput), naming the file, if it is.
+  void refuse_swapped(const std::string& path) const;
+
+  /// Tells, once all rows were looked at: grey values in the wrong order are noise and refused as
+  /// above, labels have the right grains but wrong numbers and get a warning. Then the check rests.
+  void finish(LabelVolume& volume, bool as_grey, const std::string& path);
 
  private:
   template <class Value>
@@ -45,6 +53,7 @@ class ByteOrderCheck {
   std::int64_t floats_ = 0;              ///< other than 0
   std::int64_t odd_ = 0;                 ///< floats of no usual magnitude
   std::int64_t swapped_odd_ = 0;
+  bool is_finished_ = false;
 };
 
 }  // namespace wscvt

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <new>
 
+#include "toolbox/volume/byte_order_check.h"
 #include "toolbox/volume/tiff_layout.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -182,7 +183,8 @@ class TiffStack : public LabelVolume {
         needs_grey_(sample < 0),
         files_(std::move(files)),
         slices_(std::move(slices)),
-        next_row_(page.height) {}
+        next_row_(page.height),
+        order_(page.type, geometry.counts) {}
 
   const std::vector<Label>& next_row() override {
     if (next_row_ == page_.height) next_page();
@@ -190,13 +192,18 @@ class TiffStack : public LabelVolume {
     if (in_band == 0) read_band();
     row_.resize(page_.width);
     unpack_row(band_.data() + in_band * row_bytes_);
+    order_.look_at(voxels_.data(), number_++);
     labels_of(voxels_.data(), page_.type, coding(), row_,
               {file_->path(), next_row_, static_cast<std::int64_t>(next_slice_) - 1});
     ++next_row_;
+    if (next_row_ == page_.height && next_slice_ == slices_.size()) {
+      order_.finish(*this, coding().as_grey, file_->path());
+    }
     return row_;
   }
 
   void rewind() override {
+    number_ = 0;
     file_.reset();
     next_slice_ = 0;
     next_row_ = page_.height;
@@ -328,6 +335,8 @@ class TiffStack : public LabelVolume {
   std::uint32_t page_at_ = 0;
   std::size_t next_slice_ = 0;
   std::uint32_t next_row_;
+  ByteOrderCheck order_;
+  std::int64_t number_ = 0;  ///< of the next row in the volume
   // A band is the part that the file unpacks at once: the rows of a strip, or of tiles side by
   // side.
   std::uint32_t band_rows_ = 1;

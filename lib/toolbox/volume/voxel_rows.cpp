@@ -176,19 +176,6 @@ void load_row(const char* bytes, const VoxelType& type, LabelCoding& coding,
   load_as(std::int64_t{}, std::uint64_t{});
 }
 
-/// Says that the numbers of a file are in the other byte order than its header says.
-Sentence sentence_of_order(const VoxelType& type) {
-  const std::string said = type.big_endian ? "big" : "little";
-  const std::string right = type.big_endian ? "little" : "big";
-  return "has numbers whose bytes are in the other order than its header says (" + said +
-         "-endian): neighbours are alike only in the other order. Correct the header "
-         "(\"byte_order\": "
-         "\"" +
-         right + "\" in .json, endian: " + right +
-         " in .nrrd, BinaryDataByteOrderMSB = " + (type.big_endian ? "False" : "True") +
-         " in .mhd), or export the file again.";
-}
-
 class VolumeOfBytes : public LabelVolume {
  public:
   VolumeOfBytes(const VolumeGeometry& geometry, const VoxelType& type, std::vector<BlockPick> picks,
@@ -217,16 +204,16 @@ class VolumeOfBytes : public LabelVolume {
                     "it again.");
     }
     const std::int64_t rows = geometry().counts[1];
-    if (!is_order_known_) order_.look_at(packed_.data(), next_);
+    order_.look_at(packed_.data(), next_);
     try {
       labels_of(packed_.data(), type_, coding(), row_, {path_, next_ % rows, next_ / rows});
     } catch (const Error&) {
       order_.take(packed_.data());
-      if (order_.is_swapped()) refuse_volume(path_, sentence_of_order(type_));
+      order_.refuse_swapped(path_);
       throw;
     }
     ++next_;
-    if (next_ == rows * geometry().counts[2]) finish_order();
+    if (next_ == rows * geometry().counts[2]) order_.finish(*this, coding().as_grey, path_);
     return row_;
   }
 
@@ -246,18 +233,8 @@ class VolumeOfBytes : public LabelVolume {
     is_at_begin_ = true;
   }
 
-  /// Grey values in the wrong order are noise. Labels have the right grains, but wrong numbers.
-  void finish_order() {
-    if (!is_order_known_ && order_.is_swapped()) {
-      if (coding().as_grey) refuse_volume(path_, sentence_of_order(type_));
-      add_warning("\"" + path_ + "\" " + sentence_of_order(type_));
-    }
-    is_order_known_ = true;
-  }
-
   VoxelType type_;
   ByteOrderCheck order_;
-  bool is_order_known_ = false;
   std::vector<BlockPick> picks_;
   OpenBytes open_;
   std::string path_;
