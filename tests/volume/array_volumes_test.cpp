@@ -143,6 +143,21 @@ TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
   EXPECT_EQ(labels_of("a.npy", choice), labels(200));
 }
 
+TEST_F(ArrayVolumes, RefusesChannelsBetweenSlicesAndRows) {
+  make({9, 8, 7});
+  const std::string slice(std::size_t{9 * 8 * 2}, '\1');
+  std::string all;
+  for (int k = 0; k < 7 * 3; ++k) all += slice;
+  for (const VolumeChoice& choice : {VolumeChoice(), frame(1), channel(1)}) {
+    expect_refused_of("a.npy", npy("<u2", "False", "7, 3, 8, 9", all),
+                      {"7 x 3 x 8 x 9", "array[:, 0]"}, choice);
+  }
+  // Three frames, or as many slices as half the rows.
+  expect_refused_of("a.npy", npy("<u2", "False", "3, 7, 8, 9", all), {"3 frames"});
+  expect_refused_of("a.npy", npy("<u2", "False", "7, 4, 8, 9", all + all.substr(0, 1008)),
+                    {"7 frames"});
+}
+
 TEST_F(ArrayVolumes, ReadsTheChosenArrayOfAnNpz) {
   const auto write_npz = [&](const std::vector<std::pair<std::string, std::string>>& members,
                              int level) {

@@ -411,6 +411,18 @@ TEST_F(TiffVolume, DoubtsTheByteOrder) {
   }
 }
 
+TEST_F(TiffVolume, RefusesChannelsBetweenSlicesAndRows) {
+  make({9, 8, 7});
+  TiffPages stack = as();
+  std::vector<std::string> all;
+  for (int z = 0; z < 7; ++z) all.insert(all.end(), 3, page(z));
+  stack.text = R"({"shape": [7, 3, 8, 9]})";
+  expect_refused_of(stack, all, {"7 x 3 x 8 x 9", "array[:, 0]"});
+  expect_refused("a.tif", {"array[:, 0]"}, frame(1));
+  stack.text = R"({"shape": [7, 3, 8, 9], "axes": "ZCYX"})";
+  expect_made_of(stack, all, channel(2));
+}
+
 TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
   TiffPages stack = as();
   stack.samples = 3;

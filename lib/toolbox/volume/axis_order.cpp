@@ -49,12 +49,26 @@ std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
 
 }  // namespace
 
+void refuse_channels_inside(const std::vector<std::int64_t>& counts, const std::string& path) {
+  std::vector<std::int64_t> all;
+  for (const std::int64_t count : counts) {
+    if (count > 1) all.push_back(count);
+  }
+  constexpr std::int64_t most_channels = 8;
+  if (all.size() != 4 || all[1] > most_channels) return;
+  if (2 * all[1] >= std::min({all[0], all[2], all[3]})) return;
+  refuse_volume(path, "holds an array of " + text_of(counts) + ", whose " + std::to_string(all[1]) +
+                          " places between the others are channels rather than slices. Save one "
+                          "of them alone, in Python numpy.save(\"one.npy\", array[:, 0]).");
+}
+
 ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
                              const std::string& path) {
   if (shape.counts.size() < 3) {
     refuse_volume(path, "holds an array of " + text_of(shape.counts) +
                             ", but a volume needs three dimensions.");
   }
+  if (shape.roles.empty()) refuse_channels_inside(shape.counts, path);
   const std::vector<int> roles = shape.roles.empty() ? usual_roles(shape.counts) : shape.roles;
   ShapedVolume volume;
   std::array<std::int64_t, 3> counts{};

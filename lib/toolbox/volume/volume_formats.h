@@ -115,6 +115,10 @@ struct ShapedVolume {
   std::vector<BlockPick> picks;
 };
 
+/// Throws Error(InputOutput), naming the file, for counts that look like z, c, y, x, as PyTorch and
+/// others store channels: they would be taken for the slices of frames.
+void refuse_channels_inside(const std::vector<std::int64_t>& counts, const std::string& path);
+
 /// Returns the geometry and the selection. Throws Error(InputOutput), naming the file `path`, for
 /// shapes that are no volume.
 ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
