@@ -411,6 +411,15 @@ TEST_F(ArrayVolumes, ReadsNifti) {
   expect_refused_of("a.nii.gz", test::packed("no NIfTI", true), {"not a NIfTI"});
 }
 
+TEST_F(ArrayVolumes, LeadsFromOtherGridsOfVtkToImages) {
+  for (const char* kind : {"RECTILINEAR_GRID", "STRUCTURED_GRID"}) {
+    expect_refused_of("a.vtk",
+                      std::string("# vtk DataFile Version 3.0\nt\nASCII\nDATASET ") + kind +
+                          "\nDIMENSIONS 7 5 3\n",
+                      {"Resample To Image"});
+  }
+}
+
 TEST_F(ArrayVolumes, ReadsLegacyVtk) {
   const auto head = [&](const std::string& form, const std::string& counts) {
     return "# vtk DataFile Version 3.0\nlabels\n" + form +

@@ -82,7 +82,13 @@ class VtkParser {
       TextFields fields(line);
       const std::string key = lower_case(fields.next());
       if (key == "dataset") {
-        if (lower_case(fields.next()) != "structured_points") {
+        const std::string kind = lower_case(fields.next());
+        if (kind == "rectilinear_grid" || kind == "structured_grid") {
+          refuse_volume(path_,
+                        "is a grid whose voxels may differ in size, which is not read. Save it as "
+                        ".vti, in ParaView by Filters > Resample To Image with as many points.");
+        }
+        if (kind != "structured_points") {
           refuse_volume(path_,
                         "has no structured points, so it is not a volume of labels. For a mesh, "
                         "use wscvt remesh.");
