@@ -239,7 +239,9 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
         "x,y,z,diameter\n0,0,0.5,2\n0.5,-1,0,1.8\n",
         "# clump\n\n# of 2\nx,y,z,r\n0,0,0.5,1\n0.5,-1,0,0.9\n",
         "# clump\n0,0,0.5,1\n0.5,-1,0,0.9\n", "x,y,z,r,diameter\n0,0,0.5,1,2\n0.5,-1,0,0.9,1.8\n",
-        "diameter,radius,x,y,z\n2,1,0,0,0.5\n1.8,0.9,0.5,-1,0\n"}) {
+        "diameter,radius,x,y,z\n2,1,0,0,0.5\n1.8,0.9,0.5,-1,0\n",
+        "sep=;\nx [mm];y [mm];z [mm];r [um]\n0;0;0.5;1000\n0.5;-1;0;900\n",
+        "x[um] y[um] z[um] diameter[mm]\n0 0 0.5 0.002\n0.5 -1 0 0.0018\n"}) {
     SCOPED_TRACE(text);
     const std::string name = file("spheres.csv", text);
     EXPECT_TRUE(is_clump_file(name));
@@ -247,8 +249,14 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
     ASSERT_EQ(spheres.size(), 2U);
     EXPECT_EQ(spheres[0].centre, Vector3(0, 0, 0.5));
     EXPECT_EQ(spheres[1].centre, Vector3(0.5, -1, 0));
-    EXPECT_EQ(spheres[0].radius, 1.0);
-    EXPECT_EQ(spheres[1].radius, 0.9);
+    EXPECT_DOUBLE_EQ(spheres[0].radius, 1.0);
+    EXPECT_DOUBLE_EQ(spheres[1].radius, 0.9);
+  }
+  for (const char* heading : {"x [mm],y [um],z [mm],r [mm]", "x [mm],y [mm],z [mm],r [px]"}) {
+    const std::string units = test::refusal(ErrorCode::InvalidInput, [&] {
+      read_clump(file("units.csv", std::string(heading) + "\n0,0,0.5,1\n"));
+    });
+    EXPECT_NE(units.find("columns in mm and in "), std::string::npos) << units;
   }
   const std::string sentence = test::refusal(
       ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });

@@ -338,7 +338,47 @@ struct SphereColumns {
   std::size_t count = 0;      ///< of all columns
   bool has_diameter = false;  ///< in the place of the radius
   bool has_heading = true;
+  double radius_factor = 1.0;  ///< to the unit of x, y and z
+  std::string two_units;       ///< why the heading's units make no sense; empty: they do
 };
+
+/// Sets what the units in a heading, "x [mm]" or "r[um]", mean. `words` are those of the heading,
+/// with the units.
+void read_units(const std::vector<std::string>& words, SphereColumns& columns) {
+  std::vector<std::string> units(columns.count);
+  std::size_t column = 0;
+  for (const std::string& word : words) {
+    if (word == "#") continue;
+    const bool is_unit = word.front() == '[' || word.front() == '(';
+    if (!is_unit && column++ == columns.count) return;
+    const std::size_t begin = word.find_first_of("[(");
+    if (begin == std::string::npos || column == 0) continue;
+    std::string unit = word.substr(begin + 1, word.find_first_of("])", begin) - begin - 1);
+    if (unit == "\xC2\xB5m" || unit == "\xCE\xBCm") unit = "um";
+    units[column - 1] = unit;
+  }
+  const std::string& of_x = units[columns.of[0]];
+  const std::string& of_radius = units[columns.of[3]];
+  const auto refuse_units = [&](const std::string& one, const std::string& other) {
+    columns.two_units =
+        "has columns in " + one + " and in " + other + ". Convert them to one unit.";
+  };
+  for (const std::size_t axis : {1U, 2U}) {
+    const std::string& other = units[columns.of[axis]];
+    if (other != of_x && !other.empty()) refuse_units(of_x, other);
+  }
+  if (of_x == of_radius || of_x.empty() || of_radius.empty()) return;
+  const auto metres = [](const std::string& unit) {
+    return unit == "nm"   ? 1e-9
+           : unit == "um" ? 1e-6
+           : unit == "mm" ? 1e-3
+           : unit == "cm" ? 1e-2
+           : unit == "m"  ? 1.0
+                          : 0.0;
+  };
+  if (metres(of_x) == 0.0 || metres(of_radius) == 0.0) return refuse_units(of_x, of_radius);
+  columns.radius_factor = metres(of_radius) / metres(of_x);
+}
 
 /// Returns nothing if the first line is no heading of spheres and not four numbers.
 std::optional<SphereColumns> columns_of(const std::string& first_line) {
@@ -381,7 +421,10 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
     columns.has_diameter = true;
     found[3] = diameters;
   }
-  if (found == std::array<int, 4>{1, 1, 1, 1}) return columns;
+  if (found == std::array<int, 4>{1, 1, 1, 1}) {
+    read_units(words_of(first_line), columns);
+    return columns;
+  }
   if (numbers != 4 || words.size() != 4) return {};
   columns.of = {0, 1, 2, 3};
   columns.has_heading = false;
@@ -395,7 +438,8 @@ std::optional<SphereColumns> next_columns(std::istream& stream, std::string& lin
   constexpr std::size_t most_comments = 100;
   for (number = 1; number <= most_comments && next_line(stream, line); ++number) {
     const std::optional<SphereColumns> columns = columns_of(line);
-    if (columns || (!line.empty() && line.front() != '#')) return columns;
+    const bool is_separator = lower_case(line).rfind("sep=", 0) == 0;  // of spreadsheets
+    if (columns || (!line.empty() && line.front() != '#' && !is_separator)) return columns;
   }
   return {};
 }
@@ -438,6 +482,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
            "\" is not a table of spheres. Its first line must name the columns x, y, z and r (or "
            "radius, or diameter), or be four numbers: x, y, z and the radius.");
   }
+  if (!columns->two_units.empty()) refuse("\"" + path + "\" " + columns->two_units);
   std::vector<Sphere> spheres;
   bool is_read_already = !columns->has_heading;
   if (!is_read_already) ++number;
@@ -457,6 +502,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
              "\" is not x,y,z,r with a radius above 0.");
     }
     if (columns->has_diameter) values[3] *= 0.5;
+    values[3] *= columns->radius_factor;
     spheres.push_back({Vector3(values[0], values[1], values[2]), values[3]});
   }
   if (spheres.empty()) refuse("\"" + path + "\" contains no sphere.");
