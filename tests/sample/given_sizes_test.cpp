@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "support/expect_error.h"
 
@@ -59,6 +62,33 @@ TEST(GivenSizes, AreReadFromATable) {
       test::refusal(ErrorCode::InvalidInput, [&] { read_given_sizes(path); });
   EXPECT_NE(sentence.find("Line 2"), std::string::npos) << sentence;
   EXPECT_ERROR(read_given_sizes(path + ".none"), InputOutput);
+  std::remove(path.c_str());
+}
+
+TEST(GivenSizes, UnderstandOrRefuseHeadingsAndUnits) {
+  const std::string path = ::testing::TempDir() + "/wscvt_given_sizes.csv";
+  for (const char* text :
+       {"sep=;\nsize [mm];finer [%]\n0,5;0\n1;40\n2;100\n",
+        "\xEF\xBB\xBFsep=,\r\n0.5,0\r\n2,100\r\n", "d,finer by mass\n[mm],%\n0.5,0\n2,100\n",
+        "Sieve (mm)\tPassing (%)\n.5\t0\n2\t100\n"}) {
+    std::ofstream(path) << text;
+    const GivenSizes sizes = read_given_sizes(path);
+    EXPECT_DOUBLE_EQ(sizes.diameter(0.0), 0.5) << text;
+    EXPECT_DOUBLE_EQ(sizes.diameter(1.0), 2.0) << text;
+  }
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"size,finer\n63 um,0\n2 mm,100\n", "Line 2"},
+           {"63 um,0\n0.1,0\n2,100\n", "Line 1"},
+           {"0,5;0\n63 um;40\n2;100\n", "Line 2"},
+           {"finer [%],size [mm]\n0,0.5\n100,2\n", "percentages first"},
+           {"size [mm],retained [%]\n0.5,0\n2,100\n", "retained"},
+           {"size [phi],finer [%]\n0.5,0\n2,100\n", "phi"},
+           {"size [mm],aperture [um]\n0.5,0\n2,100\n", "length in the second"}}) {
+    std::ofstream(path) << text;
+    const std::string sentence =
+        test::refusal(ErrorCode::InvalidInput, [&] { read_given_sizes(path); });
+    EXPECT_NE(sentence.find(word), std::string::npos) << text << sentence;
+  }
   std::remove(path.c_str());
 }
 

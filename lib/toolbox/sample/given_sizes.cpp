@@ -12,23 +12,64 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
 
 namespace {
 
-std::optional<double> number_of(std::string text) {
+/// `decimal`: the decimal mark besides the point.
+std::optional<double> number_of(std::string text, char decimal) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
     text.pop_back();
   }
   text.erase(0, text.find_first_not_of(" \t\""));
   if (!text.empty() && text.back() == '"') text.pop_back();
+  std::replace(text.begin(), text.end(), decimal, '.');
   double value = 0.0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
   return value;
+}
+
+/// A line in two fields. Only commas separate where there is no semicolon and no tab.
+struct Fields {
+  std::string first;
+  std::string second;
+  char decimal = '.';
+};
+
+Fields fields_of(const std::string& text) {
+  std::size_t cut = text.find_first_of(";\t");
+  const char decimal = cut == std::string::npos ? '.' : ',';
+  if (cut == std::string::npos) cut = text.find(',');
+  if (cut == std::string::npos) return {text, "", decimal};
+  return {text.substr(0, cut), text.substr(cut + 1), decimal};
+}
+
+/// Refuses a heading whose columns are not what is read.
+void check_heading(const Fields& heading, const std::string& path) {
+  const std::string first = lower_case(heading.first);
+  const std::string second = lower_case(heading.second);
+  const auto has = [](const std::string& text, const std::vector<std::string>& words) {
+    return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+      return text.find(word) != std::string::npos;
+    });
+  };
+  std::string what;
+  if (has(first, {"%", "finer", "passing", "percent"}) && !has(second, {"%", "finer", "passing"})) {
+    what = "has the percentages first. Write the diameters into the first column";
+  } else if (has(second, {"retained", "coarser", "oversize"})) {
+    what = "has the percentage retained or coarser. Write the percentage finer, which rises to 100";
+  } else if (has(first, {"phi", "\xcf\x86"})) {
+    what = "has sizes on the phi scale. Write diameters: 2 to the power of -phi, in mm";
+  } else if (has(second, {"mm", "um", "\xc2\xb5m"}) && !has(second, {"%"})) {
+    what = "has a length in the second column. Write the percentage finer by mass there";
+  }
+  if (!what.empty()) refuse("The heading of \"" + path + "\" " + what + ".");
 }
 
 /// Returns the grains per mass at a diameter, up to a factor.
@@ -83,20 +124,29 @@ GivenSizes read_given_sizes(const std::string& path) {
   std::vector<double> diameters;
   std::vector<double> percentages;
   std::size_t line = 0;
+  bool may_be_heading = true;
   for (std::string text; std::getline(file, text);) {
     ++line;
-    if (text.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::size_t cut = text.find_first_of(",;\t");
-    const auto diameter = number_of(text.substr(0, cut));
-    const auto percentage =
-        cut == std::string::npos ? std::nullopt : number_of(text.substr(cut + 1));
+    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    const bool is_blank = text.find_first_not_of(" \t\r") == std::string::npos;
+    // A first line of spreadsheets, which names the separator.
+    if (is_blank || (may_be_heading && lower_case(text).rfind("sep=", 0) == 0)) continue;
+    const Fields fields = fields_of(text);
+    const auto diameter = number_of(fields.first, fields.decimal);
+    const auto percentage = number_of(fields.second, fields.decimal);
+    const bool has_digit = text.find_first_of("0123456789") == text.find_first_not_of(" \t\"+-.,;");
     if (diameter && percentage) {
       diameters.push_back(*diameter);
       percentages.push_back(*percentage);
-    } else if (line > 1) {
-      refuse("Line " + std::to_string(line) + " of \"" + path +
-             "\" is not a diameter, a comma and the percentage finer by mass.");
+    } else if (may_be_heading && !has_digit) {
+      check_heading(fields, path);
+    } else if (!diameters.empty() || has_digit || trimmed(fields.second) != "%") {  // or units
+      refuse(
+          "Line " + std::to_string(line) + " of \"" + path +
+          "\" is not a diameter, a comma and the percentage finer by mass, as two numbers. Write "
+          "a unit into the heading only, and all diameters in it.");
     }
+    may_be_heading = false;
   }
   if (file.bad()) refuse_to_read(path);
   return {std::move(diameters), std::move(percentages)};
