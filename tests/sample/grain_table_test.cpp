@@ -67,7 +67,7 @@ TEST_F(GrainTableTest, KnowsTheColumnsOfOtherPrograms) {
       "Particle ID,Volume (\xC2\xB5m\xC2\xB3),Equivalent Diameter (\xC2\xB5m),Middle Axis Length "
       "(\xC2\xB5m),True Sphericity (-),Compactness (-)\n7,24,3.5789,3.5,0.83,0.58\n");
   EXPECT_EQ(atlas.grains, (std::vector<std::string>{"7"}));
-  EXPECT_EQ(heading_of(atlas.columns[atlas.index_of("volume")]), "volume [\xC2\xB5m^3]");
+  EXPECT_EQ(heading_of(atlas.columns[atlas.index_of("volume")]), "volume [um^3]");
   EXPECT_EQ(atlas.columns[atlas.index_of("sphericity_wadell")].unit, "");
   EXPECT_EQ(value(atlas, "axis_i_inertia"), 3.5);
   EXPECT_FALSE(atlas.find("compactness"));
@@ -195,7 +195,7 @@ TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
 TEST_F(GrainTableTest, KnowsWhatProgramsOnWindowsAndMacsWrite) {
   // Latin-1; as UTF-8 it is the same.
   const GrainTable latin = read("label,volume (\xB5m\xB3)\na,8\nb,1\n");
-  EXPECT_EQ(heading_of(latin.columns[latin.index_of("volume")]), "volume [\xC2\xB5m^3]");
+  EXPECT_EQ(heading_of(latin.columns[latin.index_of("volume")]), "volume [um^3]");
   EXPECT_NE(refusal("label,volume\ra,8\rb,1\r").find("end by CR"), std::string::npos);
   const std::string error = refusal("label,volume\na,#DIV/0!\nb,1\n");
   EXPECT_NE(error.find("line 2"), std::string::npos) << error;
@@ -322,6 +322,50 @@ TEST_F(GrainTableTest, FindsColumnsAndNamesThoseThereAre) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("v, w."), std::string::npos);
   }
+}
+
+TEST_F(GrainTableTest, UnderstandsUnitsAndTheLineOfSeparators) {
+  for (const char* text :
+       {"sep=;\r\ngrain;volume [mm\xC2\xB3];area (mm2);ratio\r\na;1,5;8;.5\r\n",
+        "\xEF\xBB\xBFsep=\t\ngrain\tvolume\tarea\tratio\n\tmm^3\tmm\xC2\xB2\t-\na\t1.5\t8\t.5\n",
+        "grain,volume,area,ratio\n,[mm^3],[mm^2],\na,1.5,8,.5\n"}) {
+    const GrainTable table = read(text);
+    ASSERT_EQ(table.grains, std::vector<std::string>{"a"}) << text;
+    ASSERT_EQ(table.columns.size(), 3U) << text;
+    EXPECT_EQ(heading_of(table.columns[0]), "volume [mm^3]") << text;
+    EXPECT_EQ(heading_of(table.columns[1]), "area [mm^2]") << text;
+    EXPECT_EQ(table.values(0, 0), 1.5);
+    EXPECT_EQ(table.values(0, 2), 0.5);
+  }
+  const GrainTable atlas = read("Particle ID,Volume [\xC2\xB5m\xC2\xB3]\n1,20\n");
+  EXPECT_EQ(heading_of(atlas.columns.at(0)), "volume [um^3]");
+  EXPECT_EQ(read("grain,volume,unit\na,1.5,mm\nb,2,mm\nc,2,\n").grains.size(), 3U);
+  const std::string two = refusal("grain,volume,unit\na,1.5,mm\nb,200,\xC2\xB5m\n");
+  EXPECT_NE(two.find("line 3"), std::string::npos) << two;
+  EXPECT_NE(two.find("in um, but the rows above it are in mm"), std::string::npos) << two;
+  EXPECT_NE(refusal("sep=,\ngrain,volume\na,-1\n").find("line 3"), std::string::npos);
+}
+
+TEST_F(GrainTableTest, RefusesGrainsThatCountTwice) {
+  const std::string twice = refusal("grain,volume\na,1\nb,2\na ,1\n");
+  EXPECT_NE(twice.find("line 4: the grain \"a \" has a row in line 2 too"), std::string::npos)
+      << twice;
+  EXPECT_EQ(read("class,volume\na,1\nb,2\na,1\n").grains.size(), 3U) << "no names of grains";
+  EXPECT_EQ(read("grain,volume\n,1\n,2\n").grains.size(), 2U) << "without names";
+  EXPECT_EQ(read("grain,volume,status\na,,failed\na,1,done\n").grains.size(), 1U);
+}
+
+TEST_F(GrainTableTest, RefusesSectionsOfScikitImage) {
+  const std::string head = "label,area,equivalent_diameter_area,solidity\n";
+  const std::string disc = refusal(head + "4,1250,39.894,0.9\n");
+  EXPECT_NE(disc.find("line 2: the equivalent diameter 39.89 is that of a disc"), std::string::npos)
+      << disc;
+  EXPECT_EQ(read(head + "4,1250,13.365,0.9\n").grains.size(), 1U);
+  EXPECT_NE(refusal("label,area,equivalent_diameter\n1,1250,39.894\n").find("of a disc"),
+            std::string::npos);
+  EXPECT_NE(refusal("label,area,equivalent_diameter\n1,1250,13.365\n").find("Rename the column"),
+            std::string::npos);
+  EXPECT_EQ(read("grain,area,equivalent_diameter\n1,700,13.365\n").grains.size(), 1U);
 }
 
 }  // namespace

@@ -75,19 +75,23 @@ const std::vector<Program>& programs() {
   return all;
 }
 
-/// Divides "Volume (µm³)" into "Volume" and "µm^3". "(-)" is no unit.
+/// Divides "Volume (µm³)" or "Volume [µm³]" into "Volume" and "µm^3". "(-)" is no unit.
 ForeignColumn without_unit(std::string_view heading) {
   const std::string_view text = trimmed(heading);
-  const std::size_t bracket = text.rfind(" (");
-  if (bracket == std::string_view::npos || text.back() != ')') return {std::string(text), ""};
-  std::string unit(text.substr(bracket + 2, text.size() - bracket - 3));
+  const bool is_square = !text.empty() && text.back() == ']';
+  const std::size_t bracket = is_square ? text.rfind('[') : text.rfind(" (");
+  if (bracket == std::string_view::npos || (!is_square && text.back() != ')')) {
+    return {std::string(text), ""};
+  }
+  const std::size_t begin = bracket + (is_square ? 1 : 2);
+  std::string unit(text.substr(begin, text.size() - begin - 1));
   for (const auto& [from, to] :
        {std::pair<std::string_view, std::string_view>{"\xC2\xB3", "^3"}, {"\xC2\xB2", "^2"}}) {
     const std::size_t at = unit.find(from);
     if (at != std::string::npos) unit.replace(at, from.size(), to);
   }
   if (unit == "-") unit.clear();
-  return {std::string(text.substr(0, bracket)), unit};
+  return {std::string(trimmed(text.substr(0, bracket))), unit};
 }
 
 /// Headings of any program: without blanks and marks, in lower case.
@@ -130,7 +134,7 @@ std::optional<std::vector<ForeignColumn>> foreign_columns(
   bool is_usual = false;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::string_view name = usual_name(columns[k].name);
-    if (name.empty() || name == trimmed(headings[k])) continue;
+    if (name.empty() || name == columns[k].name) continue;
     columns[k].name = name;
     is_usual = true;
   }

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 #include <regex>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -76,14 +77,41 @@ bool is_fraction(std::string_view name) {
   return name.rfind("sphericity", 0) == 0 || name == "convexity";
 }
 
+/// Returns a unit in the form of our headings, "mm^3", or nothing for other texts.
+std::optional<std::string> unit_in(std::string_view text) {
+  std::string unit(trimmed(text));
+  const bool has_brackets = unit.size() > 2 && ((unit.front() == '[' && unit.back() == ']') ||
+                                                (unit.front() == '(' && unit.back() == ')'));
+  if (has_brackets) unit = unit.substr(1, unit.size() - 2);
+  constexpr std::pair<std::string_view, std::string_view> forms[] = {
+      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB2", "^2"}, {"\xC2\xB3", "^3"}};
+  for (const auto& [from, to] : forms) {
+    const std::size_t at = unit.find(from);
+    if (at != std::string::npos) unit.replace(at, from.size(), to);
+  }
+  static const std::regex known("(nm|um|mm|cm|m)(\\^?[23])?");
+  if (!std::regex_match(unit, known)) return {};
+  if (unit.back() == '2' || unit.back() == '3') {
+    if (unit[unit.size() - 2] != '^') unit.insert(unit.size() - 1, "^");
+  }
+  return unit;
+}
+
 GrainColumn column_of(std::string_view heading) {
   const std::string_view text = trimmed(heading);
+  const std::size_t round = text.rfind('(');
+  if (round != std::string_view::npos && round > 0) {
+    // Other columns keep their names.
+    const std::string_view name = trimmed(text.substr(0, round));
+    const auto unit = unit_in(text.substr(round));
+    if (unit && is_size(name)) return {std::string(name), *unit};
+  }
   const std::size_t bracket = text.rfind('[');
   if (text.empty() || text.back() != ']' || bracket == std::string_view::npos) {
     return {std::string(text), ""};
   }
-  return {std::string(trimmed(text.substr(0, bracket))),
-          std::string(trimmed(text.substr(bracket + 1, text.size() - bracket - 2)))};
+  const std::string_view unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
+  return {std::string(trimmed(text.substr(0, bracket))), unit_in(unit).value_or(std::string(unit))};
 }
 
 /// Returns a text that is no UTF-8 as Latin-1, which programs write on Windows.
@@ -114,6 +142,10 @@ class TableReader {
   void read_row(const std::vector<std::string>& fields);
   void note_marks(std::size_t k, const std::string& field);
   void refuse_summary(const std::vector<std::string>& fields) const;
+  bool takes_units(const std::vector<std::string>& fields);
+  void check_unit(const std::vector<std::string>& fields);
+  void check_name(const std::string& name);
+  void check_diameter() const;
   void check_field(std::size_t k, const std::string& field, std::optional<double> number);
   void check_area() const;
   GrainTable table();
@@ -142,7 +174,11 @@ class TableReader {
   std::optional<std::size_t> name_field_;  ///< none: grains have the numbers of their rows
   std::optional<std::size_t> file_field_;
   std::optional<std::size_t> status_field_;
+  std::optional<std::size_t> unit_field_;               ///< "unit" of each row
+  std::string unit_;                                    ///< of the first row that has one
+  std::unordered_map<std::string, std::size_t> lines_;  ///< of the grains' names
   std::optional<std::size_t> volume_field_;
+  std::optional<std::size_t> diameter_field_;
   std::optional<std::size_t> area_field_;
   std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
   GrainTable table_;
@@ -179,8 +215,10 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   }
   if (const auto foreign = foreign_columns(headings)) foreign_ = *foreign;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    fields_.push_back(foreign_.empty() ? column_of(headings[k])
-                                       : GrainColumn{foreign_[k].name, foreign_[k].unit});
+    fields_.push_back(
+        foreign_.empty()
+            ? column_of(headings[k])
+            : GrainColumn{foreign_[k].name, unit_in(foreign_[k].unit).value_or(foreign_[k].unit)});
     const std::string& name = fields_.back().name;
     if (!names.insert(name).second) {
       fail("two columns are named \"" + readable(name, "") + "\". Rename one of them.");
@@ -188,8 +226,10 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     if (name == "grain") name_field_ = k;
     if (name == "file") file_field_ = k;
     if (name == "status") status_field_ = k;
+    if (name == "unit" || name == "units") unit_field_ = k;
     if (name == "volume") volume_field_ = k;
-    if (name == "area") area_field_ = k;
+    if (name == "equivalent_diameter") diameter_field_ = k;
+    if (name == "area" || name == "area_or_volume") area_field_ = k;
   }
   if (fields_.size() == 1) {
     fail(
@@ -271,7 +311,7 @@ void TableReader::check_field(std::size_t k, const std::string& field,
 /// Throws if the last row has less area than a ball of its volume. Estimates from few voxels may be
 /// a little below.
 void TableReader::check_area() const {
-  if (!volume_field_ || !area_field_) return;
+  if (!volume_field_ || !area_field_ || fields_[*area_field_].name != "area") return;
   const std::vector<double>& volumes = numbers_[*volume_field_];
   const std::vector<double>& areas = numbers_[*area_field_];
   const auto unit = [&](std::size_t k) {
@@ -286,6 +326,36 @@ void TableReader::check_area() const {
        ", that of a ball of the volume " + format_number(volumes.back(), 4) +
        ". No body has less. Correct the row, or rename the column if it is not the area of the "
        "surface.");
+}
+
+/// Throws if the last row's diameter is that of a disc: the grain is a section in a 2D image. The
+/// diameter of a ball with an "area" that is its volume is scikit-image's.
+void TableReader::check_diameter() const {
+  if (!diameter_field_ || !area_field_) return;
+  const double diameter = numbers_[*diameter_field_].back();
+  const double area = numbers_[*area_field_].back();
+  const auto is_near = [&](double other) { return std::abs(area - other) < 2e-3 * area; };
+  const double of_disc = pi * diameter * diameter / 4.0;
+  const double of_ball = pi * diameter * diameter * diameter / 6.0;
+  const bool is_volume = fields_[*area_field_].name != "area";
+  if (is_near(of_disc) && !is_near(of_ball)) {
+    fail("the equivalent diameter " + format_number(diameter, 4) +
+         " is that of a disc of the area " + format_number(area, 4) +
+         ". The table is of a section, a 2D image, and no table of bodies. Measure the volume.");
+  }
+  if (is_volume || !is_near(of_ball)) return;
+  fail("the area " + format_number(area, 4) +
+       " is the volume of a ball with the equivalent diameter " + format_number(diameter, 4) +
+       ", as scikit-image names it. Rename the column \"volume\".");
+}
+
+/// Throws for a grain that has a row above.
+void TableReader::check_name(const std::string& name) {
+  if (!name_field_ || fields_[*name_field_].name != "grain" || trimmed(name).empty()) return;
+  const auto [found, is_new] = lines_.emplace(trimmed(name), line_);
+  if (is_new) return;
+  fail("the grain \"" + readable(name, "") + "\" has a row in line " +
+       std::to_string(found->second) + " too, and would count twice. Leave one out, or rename it.");
 }
 
 /// Throws for a row that spreadsheets and ImageJ write below the grains.
@@ -303,6 +373,39 @@ void TableReader::refuse_summary(const std::vector<std::string>& fields) const {
   }
 }
 
+/// Takes the units of a row of units below the heading. Returns false for another row.
+bool TableReader::takes_units(const std::vector<std::string>& fields) {
+  if (!table_.grains.empty() || !foreign_.empty()) return false;
+  bool has_unit = false;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const std::string field = as_utf8(std::string(trimmed(fields[k])));
+    if (unit_in(field)) {
+      has_unit = true;
+    } else if (field != "-" && field != "[-]" && field != "1" && !field.empty() &&
+               name_field_ != k) {
+      return false;
+    }
+  }
+  if (!has_unit) return false;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const auto unit = unit_in(as_utf8(fields[k]));
+    if (unit && fields_[k].unit.empty()) fields_[k].unit = *unit;
+  }
+  return true;
+}
+
+/// Throws for rows in two units.
+void TableReader::check_unit(const std::vector<std::string>& fields) {
+  if (!unit_field_) return;
+  const std::string text(trimmed(fields[*unit_field_]));
+  const std::string unit = unit_in(as_utf8(text)).value_or(text);
+  if (unit.empty()) return;
+  if (unit_.empty()) unit_ = unit;
+  if (unit == unit_) return;
+  fail("the row is in " + readable(unit, "") + ", but the rows above it are in " +
+       readable(unit_, "") + ". Convert it.");
+}
+
 void TableReader::read_row(const std::vector<std::string>& fields) {
   if (fields.size() == 1 && trimmed(fields[0]).empty()) return;  // a blank line
   if (fields.size() != fields_.size()) {
@@ -313,6 +416,9 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
     ++table_.failed;
     return;
   }
+  if (takes_units(fields)) return;
+  check_unit(fields);
+  if (name_field_) check_name(fields[*name_field_]);
   if (!status_field_) refuse_summary(fields);
   table_.grains.push_back(name_field_ ? fields[*name_field_]
                                       : std::to_string(table_.grains.size() + 1));
@@ -332,6 +438,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
     numbers_[k].push_back(number.value_or(missing));
   }
   check_area();
+  check_diameter();
 }
 
 GrainTable TableReader::table() {
@@ -381,16 +488,28 @@ bool has_old_lines(const std::string& path) {
   return head.find('\r') != std::string::npos && head.find('\n') == std::string::npos;
 }
 
-/// Returns the separator of the columns of a heading. Rewinds the stream.
-char separator_of(std::istream& stream) {
+/// Columns of a table.
+struct Columns {
+  char separator = ',';
+  std::size_t lines = 0;  ///< to pass over: the line "sep=;" of spreadsheets, above the heading
+};
+
+/// Returns the separator of the columns of a heading. Leaves the stream at the heading.
+Columns columns_of(std::istream& stream) {
   std::string heading;
   std::getline(stream, heading);
+  const std::size_t mark = heading.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
+  constexpr std::size_t name_size = 4;
+  if (lower_case(heading.substr(mark, name_size)) == "sep=") {
+    const std::string named = heading.substr(mark + name_size, 1);
+    return {named.empty() || named == "\r" ? ',' : named.front(), 1};
+  }
   stream.clear();
   stream.seekg(0);
   for (const char separator : {',', ';', '\t'}) {
-    if (heading.find(separator) != std::string::npos) return separator;
+    if (heading.find(separator) != std::string::npos) return {separator};
   }
-  return ',';
+  return {};
 }
 
 }  // namespace
@@ -421,9 +540,10 @@ GrainTable read_grain_table(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) refuse_to_open(path, errno);
-  const char separator = separator_of(stream);
-  CsvReader reader(stream, separator);
-  TableReader table(path, separator == ',' ? '.' : ',');
+  const Columns columns = columns_of(stream);
+  CsvReader reader(stream, columns.separator);
+  TableReader table(path, columns.separator == ',' ? '.' : ',');
+  table.count_lines(std::string(columns.lines, '\n'));
   std::vector<std::string> fields;
   if (!reader.next(fields)) {
     table.fail(has_old_lines(path)
