@@ -339,11 +339,16 @@ TEST_F(GrainTableTest, UnderstandsUnitsAndTheLineOfSeparators) {
   }
   const GrainTable atlas = read("Particle ID,Volume [\xC2\xB5m\xC2\xB3]\n1,20\n");
   EXPECT_EQ(heading_of(atlas.columns.at(0)), "volume [um^3]");
+  EXPECT_EQ(read("grain,volume,unit\na,1,mm\nb,2,mm\n").grains.size(), 2U) << "no row of units";
+  EXPECT_EQ(read("grain,volume,step\na,1,mm\nb,2,mm\n").grains.size(), 2U);
+  EXPECT_NE(refusal("grain,volume\na,1 mm3\n").find("heading: \"volume [mm3]\""),
+            std::string::npos);
   EXPECT_EQ(read("grain,volume,unit\na,1.5,mm\nb,2,mm\nc,2,\n").grains.size(), 3U);
   const std::string two = refusal("grain,volume,unit\na,1.5,mm\nb,200,\xC2\xB5m\n");
   EXPECT_NE(two.find("line 3"), std::string::npos) << two;
   EXPECT_NE(two.find("in um, but the rows above it are in mm"), std::string::npos) << two;
   EXPECT_NE(refusal("sep=,\ngrain,volume\na,-1\n").find("line 3"), std::string::npos);
+  EXPECT_NE(refusal("grain,mass,volume\na,1,1\nb,-2,2\n").find("line 3"), std::string::npos);
 }
 
 TEST_F(GrainTableTest, RefusesGrainsThatCountTwice) {

@@ -68,7 +68,7 @@ bool is_size(std::string_view name) {
   if (point == 0) name.remove_prefix(5);
   return name == "volume" || name == "area" || name.rfind("axis_", 0) == 0 ||
          name.rfind("feret_", 0) == 0 || name == "equivalent_radius" ||
-         name == "equivalent_diameter";
+         name == "equivalent_diameter" || name == "mass" || name == "density";
 }
 
 /// Whether a descriptor is a fraction, at most 1 by its definition.
@@ -275,8 +275,9 @@ void TableReader::check_field(std::size_t k, const std::string& field,
       if (!text.empty() && text.front() == '#') {
         fail_field(", an error of a spreadsheet. Correct it, or leave the field empty.");
       }
-      const std::size_t end = text.find_last_of("0123456789");
-      const std::string unit(end == std::string_view::npos ? "" : trimmed(text.substr(end + 1)));
+      const std::size_t end = text.find_first_not_of("+-0123456789., ");
+      const std::string unit(end == 0 || end == std::string_view::npos ? ""
+                                                                       : trimmed(text.substr(end)));
       fail_field(unit == "%" ? ". Write fractions of 1 without %."
                  : unit.empty()
                      ? ". Write a number, or leave the field empty."
@@ -375,14 +376,13 @@ void TableReader::refuse_summary(const std::vector<std::string>& fields) const {
 
 /// Takes the units of a row of units below the heading. Returns false for another row.
 bool TableReader::takes_units(const std::vector<std::string>& fields) {
-  if (!table_.grains.empty() || !foreign_.empty()) return false;
+  if (!table_.grains.empty() || !foreign_.empty() || unit_field_) return false;
   bool has_unit = false;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const std::string field = as_utf8(std::string(trimmed(fields[k])));
     if (unit_in(field)) {
       has_unit = true;
-    } else if (field != "-" && field != "[-]" && field != "1" && !field.empty() &&
-               name_field_ != k) {
+    } else if (field != "-" && field != "[-]" && !field.empty() && name_field_ != k) {
       return false;
     }
   }
