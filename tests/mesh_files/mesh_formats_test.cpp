@@ -424,6 +424,13 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  "vtkLZ4DataCompressor");
   expect_refusal("a.xyz", "# nothing\n", "no points");
   expect_refusal("a.xyz", "1 2 3\n4 5\n", "line 2 lacks the coordinate z");
+  expect_refusal("a.csv", "x [mm],y [mm],z [um]\n1,2,3\n", "two units");
+  std::string counted;
+  for (int k = 1; k < 12; ++k) counted += std::to_string(k) + " 0.5 " + std::to_string(k) + " 2\n";
+  expect_refusal("a.xyz", counted, "the number of each point before it");
+  EXPECT_EQ(read_mesh(file("a.csv", "n x y z\n" + counted)).points[1], Vector3(0.5, 2, 2));
+  EXPECT_EQ(read_mesh(file("a.csv", "sep=;\nx [mm];y(mm);z [mm]\n1;2;3\n")).points[0],
+            Vector3(1, 2, 3));
   expect_refusal("a.csv", "x,y,w\n1,2,3\n", "does not name the columns x, y and z");
   expect_refusal("a.csv", "x,y,x\n1,2,3\n", "does not name the columns x, y and z");
   expect_refusal("a.csv", "x,y,z\n1,,3\n", "line 2 lacks the coordinate y");

@@ -51,6 +51,39 @@ std::optional<std::size_t> axis_of(std::string_view name) {
   return {};
 }
 
+/// Returns what stands in brackets behind a name, and removes it: "x [mm]" becomes "x".
+std::string_view take_unit(std::string_view& name) {
+  const std::size_t begin = name.find_first_of("[(");
+  if (begin == std::string_view::npos || begin == 0) return {};
+  const std::string_view unit = name.substr(begin + 1, name.find_last_of("])") - begin - 1);
+  name = trimmed(name.substr(0, begin));
+  return unit;
+}
+
+/// Sets the columns of x, y and z by a heading.
+void read_heading(const std::vector<std::string_view>& fields, const ByteReader& reader,
+                  std::array<std::size_t, 3>& columns) {
+  std::array<int, 3> found{};
+  std::array<std::string_view, 3> units;
+  for (std::size_t column = 0; column < fields.size(); ++column) {
+    std::string_view name = fields[column];
+    const std::string_view unit = take_unit(name);
+    if (const std::optional<std::size_t> axis = axis_of(name)) {
+      columns[*axis] = column;
+      units[*axis] = unit;
+      ++found[*axis];
+    }
+  }
+  if (found != std::array<int, 3>{1, 1, 1}) {
+    reader.fail_line(
+        "is not a point and does not name the columns x, y and z, each once. Name them, or "
+        "give a file with numbers only.");
+  }
+  if (units[0] != units[1] || units[0] != units[2]) {
+    reader.fail_line("has coordinates in two units. Convert them to one.");
+  }
+}
+
 }  // namespace
 
 void read_point_text(ByteReader& reader, MeshFile& file) {
@@ -58,29 +91,25 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
   std::vector<std::string_view> fields;
   IndexedMesh& mesh = file.mesh;
   bool is_first = true;
+  bool has_heading = false;
+  std::size_t counted = 0;  // points whose first number is theirs
   while (const std::optional<std::string_view> line = reader.filled_line()) {
     if (TextFields(*line).next().front() == '#') continue;
+    if (is_first && lower_case(*line).rfind("sep=", 0) == 0) continue;  // of spreadsheets
     split(*line, fields);
     if (is_first && !number_in(fields[0]) && !fields[0].empty()) {
       is_first = false;
-      std::array<int, 3> found{};
-      for (std::size_t column = 0; column < fields.size(); ++column) {
-        if (const std::optional<std::size_t> axis = axis_of(fields[column])) {
-          columns[*axis] = column;
-          ++found[*axis];
-        }
-      }
-      if (found != std::array<int, 3>{1, 1, 1}) {
-        reader.fail_line(
-            "is not a point and does not name the columns x, y and z, each once. Name them, or "
-            "give a file with numbers only.");
-      }
+      read_heading(fields, reader, columns);
+      has_heading = true;
       continue;
     }
     is_first = false;
     if (mesh.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
       reader.fail("holds more points than can be numbered. Reduce the scan first.");
     }
+    const std::optional<double> first = fields.size() > 3 ? number_in(fields[0]) : std::nullopt;
+    const auto number = static_cast<double>(mesh.points.size());
+    if (first == number || first == number + 1.0) ++counted;
     Vector3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view field = columns[axis] < fields.size() ? fields[columns[axis]] : "";
@@ -93,6 +122,12 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
       point[static_cast<Eigen::Index>(axis)] = *value;
     }
     mesh.points.push_back(point);
+  }
+  constexpr std::size_t enough = 10;
+  if (!has_heading && counted >= enough && counted == mesh.points.size()) {
+    reader.fail(
+        "has the number of each point before it, which would be its x. Write a heading that names "
+        "the columns, such as id,x,y,z.");
   }
   if (mesh.points.empty()) reader.fail("holds no points" + std::string(export_again));
 }
