@@ -464,6 +464,22 @@ TEST_F(HeaderVolumes, DoubtsTheByteOrder) {
                      made_.bytes<std::uint32_t>(true));
   EXPECT_EQ(read_grey("a.mha"), 0U);
 
+  // Fractions of 65535, whose bytes are alike: their exponents tell it.
+  for (const bool is_swapped : {false, true}) {
+    std::string fractions;
+    for (const Label label : made_.labels) {
+      const float value = static_cast<float>(label + (label < 15000 ? 3000 : 9000)) / 65535.0F;
+      const std::string four(reinterpret_cast<const char*>(&value), sizeof value);
+      fractions += is_swapped ? std::string(four.rbegin(), four.rend()) : four;
+    }
+    write("c.nrrd", nrrd("encoding: raw\n\n", "float") + fractions);
+    if (is_swapped) {
+      refused_grey("c.nrrd", "endian: big");
+    } else {
+      EXPECT_EQ(read_grey("c.nrrd"), 0U);
+    }
+  }
+
   const auto warnings_of_labels = [&](const std::vector<Label>& values, bool big) {
     made_ = MadeVolume({30, 28, 26});
     for (std::size_t k = 0; k < values.size(); ++k) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int64_t most_rows = 4096;
 constexpr std::size_t enough_values = 3;
+constexpr double far_more = 6.0;
 
 /// The bits of a number.
 template <std::size_t Bytes>
@@ -63,6 +64,7 @@ void ByteOrderCheck::take_values(const char* bytes) {
   using Bits = BitsOf<sizeof(Value)>;
   double before = 0.0;
   double swapped_before = 0.0;
+  bool has_before = false;  // a float
   for (std::int64_t k = 0; k < width_; ++k) {
     Bits bits = 0;
     std::memcpy(&bits, bytes + static_cast<std::size_t>(k) * sizeof(Bits), sizeof(Bits));
@@ -75,6 +77,15 @@ void ByteOrderCheck::take_values(const char* bytes) {
       ++floats_;
       odd_ += is_odd(value) ? 1 : 0;
       swapped_odd_ += is_odd(swapped) ? 1 : 0;
+      const double exponent = std::logb(value);
+      const double swapped_exponent = std::logb(swapped);
+      if (has_before && std::isfinite(exponent) && std::isfinite(swapped_exponent)) {
+        differences_ += std::abs(exponent - before);
+        swapped_differences_ += std::abs(swapped_exponent - swapped_before);
+      }
+      has_before = std::isfinite(exponent) && std::isfinite(swapped_exponent);
+      before = exponent;
+      swapped_before = swapped_exponent;
     } else {
       const auto number = static_cast<double>(value);
       const auto swapped_number = static_cast<double>(swapped);
@@ -109,10 +120,13 @@ bool ByteOrderCheck::is_swapped() const {
   if (type_.is_float) {
     constexpr std::int64_t part = 4;
     constexpr std::int64_t rare = 100;
-    return odd_ * part > floats_ && swapped_odd_ * rare < floats_;
+    if (odd_ * part > floats_ && swapped_odd_ * rare < floats_) return true;
+    // In the right order, neighbours have exponents of 2 that are near each other.
+    constexpr double far = 5.0;
+    return differences_ > far * static_cast<double>(floats_) &&
+           differences_ > far_more * swapped_differences_;
   }
   // Two labels may be anything. Noise of a scan hides nothing up to a twentieth of its range.
-  constexpr double far_more = 6.0;
   return values_.size() == enough_values && (type_.bytes > 2 || has_low_bytes_) &&
          differences_ > far_more * swapped_differences_;
 }
