@@ -6,7 +6,7 @@
 #include <string>
 
 #include "toolbox/volume/label_volume.h"
-#include "toolbox/volume/voxel_rows.h"
+#include "toolbox/volume/voxel_type.h"
 
 namespace wscvt {
 

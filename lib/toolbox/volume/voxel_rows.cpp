@@ -21,35 +21,6 @@ namespace wscvt {
 
 namespace {
 
-/// All names of a type.
-struct TypeNames {
-  VoxelType type;
-  std::vector<std::string_view> names;
-};
-
-const std::vector<TypeNames>& type_names() {
-  static const std::vector<TypeNames> rows = {
-      {{1, false, false}, {"uchar", "unsigned char", "uint8", "uint8_t", "met_uchar"}},
-      {{1, true, false}, {"signed char", "int8", "int8_t", "met_char"}},
-      {{2, false, false},
-       {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t", "met_ushort"}},
-      {{2, true, false},
-       {"short", "short int", "signed short", "signed short int", "int16", "int16_t", "met_short"}},
-      // MetaIO's long has four bytes on every machine.
-      {{4, false, false}, {"uint", "unsigned int", "uint32", "uint32_t", "met_uint", "met_ulong"}},
-      {{4, true, false}, {"int", "signed int", "int32", "int32_t", "met_int", "met_long"}},
-      {{8, false, false},
-       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t",
-        "met_ulong_long"}},
-      {{8, true, false},
-       {"longlong", "long long", "long long int", "signed long long", "signed long long int",
-        "int64", "int64_t", "met_long_long"}},
-      {{4, true, true}, {"float", "float32", "met_float"}},
-      {{8, true, true}, {"double", "float64", "met_double"}},
-  };
-  return rows;
-}
-
 std::string place_text(std::size_t x, const RowPlace& place) {
   return " at the voxel (" + std::to_string(x) + ", " + std::to_string(place.y) + ", " +
          std::to_string(place.z) + "), counted from 0";
@@ -254,21 +225,6 @@ bool begins_packed(const std::string& path, std::uint64_t offset) {
 }
 
 }  // namespace
-
-std::optional<VoxelType> known_voxel_type(std::string_view name) {
-  const std::string lower = lower_case(name);
-  for (const TypeNames& row : type_names()) {
-    if (std::find(row.names.begin(), row.names.end(), lower) != row.names.end()) return row.type;
-  }
-  return std::nullopt;
-}
-
-VoxelType voxel_type_of(std::string_view name, const std::string& path) {
-  if (const std::optional<VoxelType> type = known_voxel_type(name)) return *type;
-  refuse_volume(path, "holds voxels of type " + in_quotes(name) +
-                          ", but labels are whole numbers. Save it as 8, 16 or 32 bits without a "
-                          "sign.");
-}
 
 void labels_of(const char* bytes, const VoxelType& type, LabelCoding& coding,
                std::vector<Label>& row, const RowPlace& place) {
