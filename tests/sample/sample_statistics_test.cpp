@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -512,6 +514,61 @@ TEST(SampleComparison, PIsThatOfAllDivisions) {
   const auto rows = compare_samples(sample_with(Eigen::Vector3d(1.0, 2.0, 3.0)),
                                     sample_with(Eigen::Vector2d(4.0, 50.0)), options, Execution(1));
   EXPECT_NEAR(rows[0].by_number.wasserstein_p, 0.1, 4.0 * std::sqrt(0.09 / 4000.0));
+}
+
+// Of six grains there are twenty divisions into three and three.
+TEST(SampleComparison, EachPIsThatOfItsOwnDistance) {
+  SampleOptions options;
+  options.repetitions = 4000;
+  const GrainSample one = sample_with(Eigen::Vector3d(5.6, 4.2, 4.5));
+  const GrainSample other = sample_with(Eigen::Vector3d(1.8, 3.6, 4.6));
+  const SampleDistance number = compare_samples(one, other, options, Execution(1))[0].by_number;
+  const SampleDistance mass = compare_samples(one, other, options, Execution(1))[0].by_mass;
+  Eigen::Matrix<double, 6, 2> grains;  // sizes and masses
+  grains.topRows<3>() << one.sizes, one.masses;
+  grains.bottomRows<3>() << other.sizes, other.masses;
+  const auto distances = [&](const std::bitset<6>& in_one) {
+    Eigen::Matrix<double, 3, 2> a;
+    Eigen::Matrix<double, 3, 2> b;
+    for (Eigen::Index k = 0, i = 0, j = 0; k < 6; ++k) {
+      (in_one[static_cast<std::size_t>(k)] ? a.row(i++) : b.row(j++)) = grains.row(k);
+    }
+    const auto [largest, area] =
+        test::plain_distances(test::PlainStatistics(a.col(0)), test::PlainStatistics(b.col(0)));
+    const auto [largest_mass, area_mass] = test::plain_distances(
+        test::PlainStatistics(a.col(0), a.col(1)), test::PlainStatistics(b.col(0), b.col(1)));
+    return Eigen::Array4d(largest, area, largest_mass, area_mass);
+  };
+  const Eigen::Array4d own = distances(std::bitset<6>(0b000111));
+  Eigen::Array4d share = Eigen::Array4d::Zero();
+  for (unsigned set = 0; set < 64; ++set) {
+    const std::bitset<6> in_one(set);
+    if (in_one.count() != 3) continue;
+    share += (distances(in_one) >= own * (1.0 - 1e-9)).cast<double>() / 20.0;
+  }
+  const Eigen::Array4d found(number.kolmogorov_p, number.wasserstein_p, mass.kolmogorov_p,
+                             mass.wasserstein_p);
+  // Four deviations of 4,000 draws. The four differ by a fifth.
+  EXPECT_LT((found - share).abs().maxCoeff(), 4.0 * std::sqrt(0.25 / 4000.0)) << found.transpose();
+  EXPECT_LT((share - Eigen::Array4d(0.6, 0.4, 1.0, 0.8)).abs().maxCoeff(), 1e-9);
+}
+
+TEST(SampleComparison, ColumnsMayStandInAnotherOrder) {
+  SampleOptions options;
+  options.repetitions = 0;
+  const GrainSample one = gapped_sample();
+  const GrainSample other = sample_with(2.0 * uniform(150, 31).array() + 0.2);
+  GrainSample turned = other;
+  std::reverse(turned.columns.begin(), turned.columns.end());
+  turned.values = Eigen::MatrixXd(other.values.rowwise().reverse());
+  const auto rows = compare_samples(one, other, options, Execution(1));
+  const auto found = compare_samples(one, turned, options, Execution(1));
+  ASSERT_EQ(found.size(), rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(found[k].column.name, rows[k].column.name);
+    EXPECT_EQ(found[k].by_number.wasserstein, rows[k].by_number.wasserstein);
+    EXPECT_EQ(found[k].by_mass.kolmogorov, rows[k].by_mass.kolmogorov);
+  }
 }
 
 TEST(SampleComparison, FewerDivisionsAreMadeOfManyGrains) {
