@@ -155,6 +155,10 @@ TEST_F(FabricOfAFile, TakesAWallThatClosesOnItselfForAContact) {
     const double covered = std::min(2.0 * radius, rim - middle.z() + radius);
     // Steps of voxels over a ball: within a tenth, as its uncertainty says.
     EXPECT_NEAR(fabric.contacts[0].area / (2.0 * pi * radius * covered), 1.0, 0.1) << rim;
+    // A closed wall has no rim, whose width the labels may have changed.
+    EXPECT_EQ(fabric.contact_area, fabric.contacts[0].area);
+    EXPECT_NEAR(fabric.contact_area_uncertainty, fabric.contacts[0].area_uncertainty,
+                1e-12 * fabric.contact_area);
     EXPECT_EQ(fabric.tensor.norm(), 0.0) << "it has no normal";
     bool is_told = false;
     for (const std::string& line : fabric_lines(fabric)) {
@@ -195,6 +199,8 @@ TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
       EXPECT_EQ(fabric.grains[contact.first].contacts, 0U);
     }
     EXPECT_EQ(fabric.contact_count, 0U);
+    EXPECT_EQ(fabric.contact_area, 0.0);
+    EXPECT_EQ(fabric.contact_area_uncertainty, 0.0);
   }
   EXPECT_GT(touching, 5);
 }
