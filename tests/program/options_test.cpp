@@ -189,6 +189,19 @@ TEST_F(ProgramOptions, WithAnAllowedErrorTheNumberOfNodesIsTheLimit) {
   EXPECT_EQ(read_mesh(path("missed.ply")).points.size(), 80U);
   ASSERT_EQ(run("scan.ply met.ply -q -d 6 -n 1500 --max-error 5").exit_code, 0);
   EXPECT_LT(read_mesh(path("met.ply")).points.size(), 200U);
+  // A report has the limit, given or not. A call with it makes the same search.
+  const auto report_with = [&](const std::string& nodes) {
+    EXPECT_EQ(run("scan.ply r.ply -q -d 6 --max-error 5 --report r.json " + nodes).exit_code, 0);
+    return Json::parse(content("r.json"));
+  };
+  for (const auto& [nodes, limit] : std::vector<std::pair<std::string, int>>{
+           {"-n 1500", 1500}, {"-n 80", 80}, {"", ErrorTarget().largest_node_count}}) {
+    const Json report = report_with(nodes);
+    EXPECT_EQ(report.at("options").at("nodes"), limit);
+    const Json again = report_with("-n " + std::to_string(limit));
+    EXPECT_EQ(again.at("options"), report.at("options"));
+    EXPECT_EQ(again.at("node_count_search"), report.at("node_count_search"));
+  }
   // The help tells what holds without a number.
   const std::string help = run("remesh --help").output;
   const std::string words = "at most this number, or " +

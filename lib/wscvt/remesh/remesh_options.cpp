@@ -194,6 +194,11 @@ void limit_search_to_given_nodes(RemeshOptions& options) {
   options.node_count = std::min(options.node_count, RemeshOptions().node_count);
 }
 
+RemeshOptions as_given(RemeshOptions options) {
+  if (options.target.percent > 0.0) options.node_count = options.target.largest_node_count;
+  return options;
+}
+
 void read_options(const TypedOptions& typed, RemeshOptions& options, const RefuseOption& refuse) {
   ReadTyped read(typed, refuse);
   for_each_option(options, read);

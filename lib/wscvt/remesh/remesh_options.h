@@ -258,6 +258,11 @@ Sentence refusal_of_value(std::string_view key, std::string_view value, Method m
 /// search, which then begins with at most the usual number. Otherwise changes nothing.
 void limit_search_to_given_nodes(RemeshOptions& options);
 
+/// Returns the options as a user gives them, the inverse of the above: with an allowed error, the
+/// number of nodes is the largest of the search. Reports print them, so that a call takes them
+/// back.
+RemeshOptions as_given(RemeshOptions options);
+
 /// Options as users type them: texts by the options' keys.
 using TypedOptions = std::map<std::string, std::string, std::less<>>;
 

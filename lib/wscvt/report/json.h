@@ -41,6 +41,14 @@ class OptionsJson {
   void operator()(const bool& value, const FlagOption& option) {
     options_[std::string(option.key)] = value;
   }
+  /// The usual treatment is no option of the program.
+  void operator()(const HandleAction& value) {
+    if (value == HandleAction::Cut) {
+      options_[std::string(EnumerationTable<HandleAction>::key)] = nullptr;
+    } else {
+      operator()<HandleAction>(value);
+    }
+  }
   template <class Enumeration>
   void operator()(const Enumeration& value) {
     options_[std::string(EnumerationTable<Enumeration>::key)] = key_of(value);
@@ -51,8 +59,8 @@ class OptionsJson {
   Json options_ = Json::object();
 };
 
-/// Every option with the name and value of the command line. Options of the other method, and
-/// HandleAction::Cut, are null.
+/// Every option with the name and value of the command line, see as_given. Options of the other
+/// method, and HandleAction::Cut, are null.
 Json json_of(const RemeshOptions& options);
 
 /// Returns the value of each descriptor under its key.

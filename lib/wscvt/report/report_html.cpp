@@ -98,7 +98,8 @@ std::string report_html(const RemeshResult& result, const ReportOrigin& origin,
   }
   page.add_heading("Options");
   OptionRows options;
-  for_each_option(result.options, options);
+  const RemeshOptions given = as_given(result.options);
+  for_each_option(given, options);
   page.add_rows(options.rows(), RowKind::Typed);
   page.add_heading("Log");
   page.add_lines(result_lines(result));  // the page begins with the warnings

@@ -212,13 +212,9 @@ Json json_of(const RemeshOptions& options) {
   for_each_method_option(published, keys);
   Json json = nulled(keys.take());
   OptionsJson values;
-  for_each_option(options, values);
+  const RemeshOptions given = as_given(options);
+  for_each_option(given, values);
   json.update(values.take());
-  // The usual treatment is no option of the program.
-  const auto* of_scan = std::get_if<OnScanOptions>(&options.method);
-  if (of_scan != nullptr && of_scan->handles.action == HandleAction::Cut) {
-    json[std::string(EnumerationTable<HandleAction>::key)] = nullptr;
-  }
   return json;
 }
 
