@@ -249,10 +249,11 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
     ASSERT_EQ(spheres.size(), 2U);
     EXPECT_EQ(spheres[0].centre, Vector3(0, 0, 0.5));
     EXPECT_EQ(spheres[1].centre, Vector3(0.5, -1, 0));
-    EXPECT_DOUBLE_EQ(spheres[0].radius, 1.0);
-    EXPECT_DOUBLE_EQ(spheres[1].radius, 0.9);
+    EXPECT_EQ(spheres[0].radius, 1.0);
+    EXPECT_EQ(spheres[1].radius, 0.9);
   }
-  for (const char* heading : {"x [mm],y [um],z [mm],r [mm]", "x [mm],y [mm],z [mm],r [px]"}) {
+  for (const char* heading :
+       {"x [mm],y [um],z [mm],r [mm]", "x [mm],y [mm],z [mm],r [px]", "x,y [mm],z [um],r [mm]"}) {
     const std::string units = test::refusal(ErrorCode::InvalidInput, [&] {
       read_clump(file("units.csv", std::string(heading) + "\n0,0,0.5,1\n"));
     });

@@ -338,8 +338,9 @@ struct SphereColumns {
   std::size_t count = 0;      ///< of all columns
   bool has_diameter = false;  ///< in the place of the radius
   bool has_heading = true;
-  double radius_factor = 1.0;  ///< to the unit of x, y and z
-  std::string two_units;       ///< why the heading's units make no sense; empty: they do
+  double radius_unit = 1.0;  ///< nanometres, or 1 with centre_unit
+  double centre_unit = 1.0;
+  std::string two_units;  ///< why the heading's units make no sense; empty: they do
 };
 
 /// Sets what the units in a heading, "x [mm]" or "r[um]", mean. `words` are those of the heading,
@@ -357,27 +358,30 @@ void read_units(const std::vector<std::string>& words, SphereColumns& columns) {
     if (unit == "\xC2\xB5m" || unit == "\xCE\xBCm") unit = "um";
     units[column - 1] = unit;
   }
-  const std::string& of_x = units[columns.of[0]];
+  std::string of_x;
   const std::string& of_radius = units[columns.of[3]];
   const auto refuse_units = [&](const std::string& one, const std::string& other) {
     columns.two_units =
         "has columns in " + one + " and in " + other + ". Convert them to one unit.";
   };
-  for (const std::size_t axis : {1U, 2U}) {
+  for (const std::size_t axis : {0U, 1U, 2U}) {
     const std::string& other = units[columns.of[axis]];
+    if (of_x.empty()) of_x = other;
     if (other != of_x && !other.empty()) refuse_units(of_x, other);
   }
   if (of_x == of_radius || of_x.empty() || of_radius.empty()) return;
-  const auto metres = [](const std::string& unit) {
-    return unit == "nm"   ? 1e-9
-           : unit == "um" ? 1e-6
-           : unit == "mm" ? 1e-3
-           : unit == "cm" ? 1e-2
-           : unit == "m"  ? 1.0
+  // Whole numbers, so that a radius of 900 um is the .9 mm of another table.
+  const auto nanometres = [](const std::string& unit) {
+    return unit == "nm"   ? 1.0
+           : unit == "um" ? 1e3
+           : unit == "mm" ? 1e6
+           : unit == "cm" ? 1e7
+           : unit == "m"  ? 1e9
                           : 0.0;
   };
-  if (metres(of_x) == 0.0 || metres(of_radius) == 0.0) return refuse_units(of_x, of_radius);
-  columns.radius_factor = metres(of_radius) / metres(of_x);
+  columns.centre_unit = nanometres(of_x);
+  columns.radius_unit = nanometres(of_radius);
+  if (columns.centre_unit * columns.radius_unit == 0.0) refuse_units(of_x, of_radius);
 }
 
 /// Returns nothing if the first line is no heading of spheres and not four numbers.
@@ -438,8 +442,9 @@ std::optional<SphereColumns> next_columns(std::istream& stream, std::string& lin
   constexpr std::size_t most_comments = 100;
   for (number = 1; number <= most_comments && next_line(stream, line); ++number) {
     const std::optional<SphereColumns> columns = columns_of(line);
-    const bool is_separator = lower_case(line).rfind("sep=", 0) == 0;  // of spreadsheets
-    if (columns || (!line.empty() && line.front() != '#' && !is_separator)) return columns;
+    if (columns || (!line.empty() && line.front() != '#' && !names_separator(line))) {
+      return columns;
+    }
   }
   return {};
 }
@@ -502,7 +507,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
              "\" is not x,y,z,r with a radius above 0.");
     }
     if (columns->has_diameter) values[3] *= 0.5;
-    values[3] *= columns->radius_factor;
+    values[3] = values[3] * columns->radius_unit / columns->centre_unit;
     spheres.push_back({Vector3(values[0], values[1], values[2]), values[3]});
   }
   if (spheres.empty()) refuse("\"" + path + "\" contains no sphere.");

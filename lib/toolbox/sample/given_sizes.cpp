@@ -129,8 +129,7 @@ GivenSizes read_given_sizes(const std::string& path) {
     ++line;
     if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
     const bool is_blank = text.find_first_not_of(" \t\r") == std::string::npos;
-    // A first line of spreadsheets, which names the separator.
-    if (is_blank || (may_be_heading && lower_case(text).rfind("sep=", 0) == 0)) continue;
+    if (is_blank || (may_be_heading && names_separator(text))) continue;
     const Fields fields = fields_of(text);
     const auto diameter = number_of(fields.first, fields.decimal);
     const auto percentage = number_of(fields.second, fields.decimal);

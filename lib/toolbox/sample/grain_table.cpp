@@ -499,9 +499,8 @@ Columns columns_of(std::istream& stream) {
   std::string heading;
   std::getline(stream, heading);
   const std::size_t mark = heading.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
-  constexpr std::size_t name_size = 4;
-  if (lower_case(heading.substr(mark, name_size)) == "sep=") {
-    const std::string named = heading.substr(mark + name_size, 1);
+  if (names_separator(std::string_view(heading).substr(mark))) {
+    const std::string named = heading.substr(heading.find('=') + 1, 1);
     return {named.empty() || named == "\r" ? ',' : named.front(), 1};
   }
   stream.clear();

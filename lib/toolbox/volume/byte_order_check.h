@@ -12,7 +12,8 @@ namespace wscvt {
 
 /// Finds out whether the bytes of a volume's numbers are in the other order than its header says.
 /// Neighbours differ far less in the right order, and its floats have usual magnitudes. It looks at
-/// 4096 rows at most, so it costs nothing. Numbers of one byte are never wrong.
+/// 4096 rows at most: 2 % of the instructions of `extract` for 256^3 voxels. Numbers of one byte
+/// are never wrong.
 class ByteOrderCheck {
  public:
   ByteOrderCheck(const VoxelType& type, const VoxelCounts& counts);

@@ -95,7 +95,7 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
   std::size_t counted = 0;  // points whose first number is theirs
   while (const std::optional<std::string_view> line = reader.filled_line()) {
     if (TextFields(*line).next().front() == '#') continue;
-    if (is_first && lower_case(*line).rfind("sep=", 0) == 0) continue;  // of spreadsheets
+    if (is_first && names_separator(*line)) continue;
     split(*line, fields);
     if (is_first && !number_in(fields[0]) && !fields[0].empty()) {
       is_first = false;

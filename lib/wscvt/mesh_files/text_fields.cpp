@@ -34,6 +34,8 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
 }
 
+bool names_separator(std::string_view line) { return lower_case(line.substr(0, 4)) == "sep="; }
+
 std::string shown(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text;

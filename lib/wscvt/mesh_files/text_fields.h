@@ -58,6 +58,10 @@ std::optional<Number> number_of_type(std::string_view field) {
 /// Returns a text without the white space at its ends.
 std::string_view trimmed(std::string_view text);
 
+/// Returns whether a line names the separator of those below, "sep=;", as spreadsheets write it
+/// above a heading.
+bool names_separator(std::string_view line);
+
 /// Returns a field for a message: shortened if long, without control characters.
 std::string shown(std::string_view field);
 
