@@ -157,7 +157,7 @@ TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {
   const SignedGrid grid(body, 40, Execution(2));
   const HullCost cost(grid, 0.01);
   CutTree tree(body, Eigen::Matrix3d::Identity(), cost);
-  tree.cut(5, 1.0, Execution(2));
+  tree.cut(5, Execution(2));
   std::vector<PieceGroup> groups = tree.groups();
   ASSERT_GE(groups.size(), 5U);
   const double before = total_cost(groups);

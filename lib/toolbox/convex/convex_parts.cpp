@@ -86,8 +86,6 @@ class Joining {
   }
 
   void measure(std::size_t first_pair) {
-    // A hull may also contain too much inside the grain, in other parts.
-    constexpr double most_excess = 0.02;
     execution_.report(0.0, "Joining convex parts");
     execution_.parallel_for(pairs_.size() - first_pair, 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = first_pair + begin; k < first_pair + end; ++k) {
@@ -97,8 +95,7 @@ class Joining {
         const ConvexBody hull = common_hull(pair);
         const double volume = one.volume + two.volume;
         pair.cost = cost_(hull, volume) - one.cost - two.cost;
-        pair.is_convex = hull.volume - volume <= most_excess * volume &&
-                         cost_.distance(hull) <= cost_.tolerance();
+        pair.is_convex = cost_.distance(hull) <= cost_.tolerance();
       }
     });
   }
@@ -148,26 +145,10 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
   const HullCost cost(grid, 0.01 * options.tolerance * radius);
   const Eigen::Matrix3d axes = shape.principal_axes.toRotationMatrix();
   CutTree tree(mesh, axes, cost);
-  tree.cut(pieces_a_part * count, 1.0, execution.part(0.1, 0.3));
+  tree.cut(pieces_a_part * count, execution.part(0.1, 0.5));
   std::vector<PieceGroup> groups =
-      Joining(tree.groups(), cost, execution.part(0.3, 0.35)).run(count);
-  // Costs themselves are best for some grains, squared costs for others.
-  CutTree even_tree(mesh, axes, cost);
-  even_tree.cut(pieces_a_part * count, 2.0, execution.part(0.35, 0.5));
-  std::vector<PieceGroup> even_groups =
-      Joining(even_tree.groups(), cost, execution.part(0.5, 0.55)).run(count);
-  if (total_cost(even_groups) < total_cost(groups)) {
-    std::swap(tree, even_tree);
-    std::swap(groups, even_groups);
-  }
-  tree.move_planes(groups, execution.part(0.55, 0.7));
-  // The planes moved, so other pieces may now be joined.
-  std::vector<PieceGroup> again =
-      Joining(tree.groups(), cost, execution.part(0.7, 0.75)).run(count);
-  if (total_cost(again) < total_cost(groups)) {
-    groups = std::move(again);
-    tree.move_planes(groups, execution.part(0.75, 0.85));
-  }
+      Joining(tree.groups(), cost, execution.part(0.5, 0.6)).run(count);
+  tree.move_planes(groups, execution.part(0.6, 0.85));
   if (!scan.triangles.empty()) groups = tree.groups_of(scan, groups, execution.part(0.85, 0.9));
   // The scan's hulls may need fewer parts than the mesh's, whose edges are rounder.
   groups = Joining(std::move(groups), cost, execution.part(0.9, 0.95)).run(count);

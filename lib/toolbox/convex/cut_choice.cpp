@@ -48,10 +48,10 @@ double HullCost::operator()(const ConvexBody& body, double volume) const {
 
 namespace {
 
-/// Returns the sum of the powers of the costs of the hulls of a cut's pieces. Without distances, a
-/// cost is the hull's volume less the pieces'. Infinite if the plane misses the piece.
+/// Returns the sum of the costs of the hulls of a cut's pieces. Without distances, a cost is the
+/// hull's volume less the pieces'. Infinite if the plane misses the piece.
 double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hull_cost,
-                double power, bool with_distances) {
+                bool with_distances) {
   const SolidCut cut = solid.cut(plane, hull_cost.on_plane());
   if (cut.above.empty() || cut.below.empty()) return std::numeric_limits<double>::infinity();
   double cost = 0.0;
@@ -59,9 +59,8 @@ double cut_cost(const CutSolid& solid, const CutPlane& plane, const HullCost& hu
     for (const CutSolid& piece : *side) {
       const ConvexBody body = convex_body(piece.points());
       if (body.empty()) continue;
-      const double of_piece = with_distances ? hull_cost(body, piece.volume())
-                                             : std::max(0.0, body.volume - piece.volume());
-      cost += portable::pow(of_piece, power);
+      cost += with_distances ? hull_cost(body, piece.volume())
+                             : std::max(0.0, body.volume - piece.volume());
     }
   }
   return cost;
@@ -169,7 +168,7 @@ std::vector<CutPlane> sorted_by(const std::vector<CutPlane>& planes, std::size_t
 }  // namespace
 
 std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
-                                const Eigen::Matrix3d& axes, const HullCost& cost, double power,
+                                const Eigen::Matrix3d& axes, const HullCost& cost,
                                 const Execution& execution) {
   std::vector<CutPlane> planes;
   add_edge_cuts(solid, body, planes);
@@ -177,12 +176,10 @@ std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
   add_dent_cuts(solid, body, axes, planes);
   // First the planes with the least excess volume, then the nearest of them.
   constexpr std::size_t measured = 24;
-  planes = sorted_by(planes, planes.size(), execution, [&](const CutPlane& plane) {
-    return cut_cost(solid, plane, cost, power, false);
-  });
-  return sorted_by(planes, measured, execution, [&](const CutPlane& plane) {
-    return cut_cost(solid, plane, cost, power, true);
-  });
+  planes = sorted_by(planes, planes.size(), execution,
+                     [&](const CutPlane& plane) { return cut_cost(solid, plane, cost, false); });
+  return sorted_by(planes, measured, execution,
+                   [&](const CutPlane& plane) { return cut_cost(solid, plane, cost, true); });
 }
 
 }  // namespace wscvt

@@ -39,11 +39,10 @@ class HullCost {
 
 /// Returns the planes to cut a piece with, the best first. Candidates are slices along the grain's
 /// axes, planes through the deepest dents and planes along reflex edges. The best have the smallest
-/// sum of the costs of both sides' hulls, each to the power `power`. With 1, a cut without
-/// immediate gain is not made, such as the first across a ring; above 1, even halves are better.
-/// `axes` has the axes as columns. The result does not depend on the number of threads.
+/// sum of the costs of both sides' hulls. `axes` has the axes as columns. The result does not
+/// depend on the number of threads.
 std::vector<CutPlane> best_cuts(const CutSolid& solid, const ConvexBody& body,
-                                const Eigen::Matrix3d& axes, const HullCost& cost, double power,
+                                const Eigen::Matrix3d& axes, const HullCost& cost,
                                 const Execution& execution);
 
 }  // namespace wscvt

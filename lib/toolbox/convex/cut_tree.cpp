@@ -56,7 +56,7 @@ void CutTree::add_node(CutSolid solid) {
   nodes_.push_back({std::move(solid), std::move(body), CutPlane(), {}, {}});
 }
 
-void CutTree::cut(std::size_t count, double power, const Execution& execution) {
+void CutTree::cut(std::size_t count, const Execution& execution) {
   std::vector<double> costs;  // zero for nodes that must not be cut
   // Cuts that take crumb after crumb from a piece would never end: few bodies need twice as many
   // cuts as pieces.
@@ -75,7 +75,7 @@ void CutTree::cut(std::size_t count, double power, const Execution& execution) {
     *worst = 0.0;
     const auto n = static_cast<std::size_t>(worst - costs.begin());
     const std::vector<CutPlane> planes =
-        best_cuts(nodes_[n].solid, nodes_[n].body, axes_, cost_, power, execution);
+        best_cuts(nodes_[n].solid, nodes_[n].body, axes_, cost_, execution);
     if (planes.empty()) continue;
     nodes_[n].plane = planes.front();
     SolidCut cut = nodes_[n].solid.cut(planes.front(), cost_.on_plane());

@@ -31,8 +31,7 @@ class CutTree {
 
   /// Cuts the piece of the highest cost repeatedly until there are `count` pieces, or few more;
   /// crumbs do not count. Does not cut pieces whose hull is within the tolerance of the grain.
-  /// `power`: see best_cuts.
-  void cut(std::size_t count, double power, const Execution& execution);
+  void cut(std::size_t count, const Execution& execution);
 
   /// Returns one group per piece. Omits flat pieces.
   std::vector<PieceGroup> groups() const;
