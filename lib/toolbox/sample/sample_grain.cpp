@@ -57,15 +57,13 @@ Eigen::Matrix3d axes_of(const HarmonicGrid& grid, const std::vector<double>& rad
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance);
   Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
   Vector3 third = Vector3::Zero();
-  // For the cone under a patch, integral of ((p - c) . a)^3 dV by Simpson's rule from the origin to
-  // the surface, which is exact enough for a sign.
+  // For the cone under a patch, the integral of ((p - c) . a)^3 dV from the origin to the surface.
+  const Eigen::Array3d c = axes.transpose() * moments.centroid;
   for (std::size_t k = 0; k < radii.size(); ++k) {
-    for (const double part : {0.25, 0.5, 0.75, 1.0}) {
-      const Vector3 point = part * radii[k] * grid.directions()[k] - moments.centroid;
-      const double share = part * part * (part == 1.0 ? 0.5 : 1.0);
-      const double weight = grid.weights()[k] * radii[k] * radii[k] * radii[k] * share;
-      third += weight * (axes.transpose() * point).array().cube().matrix();
-    }
+    const Eigen::Array3d p = radii[k] * (axes.transpose() * grid.directions()[k]);
+    const Eigen::Array3d cubes =
+        p.cube() / 6.0 - 0.6 * p.square() * c + 0.75 * p * c.square() - c.cube() / 3.0;
+    third += grid.weights()[k] * radii[k] * radii[k] * radii[k] * cubes.matrix();
   }
   for (int axis = 0; axis < 2; ++axis) {
     if (third[axis] < 0.0) axes.col(axis) = -axes.col(axis);
@@ -108,10 +106,6 @@ std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
   const auto white =
       radii_in_frame(log_radii, moments.centroid, stretch, grids.white().directions());
   if (!radial || !white) return {};
-  // If rays meet the surface twice, they give another volume than the real one.
-  if (std::abs(radial_moments(grids.radial(), *radial).volume / (4.0 * pi / 3.0) - 1.0) > 0.01) {
-    return {};
-  }
   grain.radial = grids.radial().coefficients(*radial);
   grain.white = grids.white().coefficients(logarithms(*white));
   return grain;
