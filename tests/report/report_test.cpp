@@ -280,7 +280,7 @@ TEST(Report, TablesHoldDistancesAndQualityOfBoth) {
   EXPECT_EQ(cells_of(result, "root mean square"), Cells());
   result.input.equivalent_radius = 2.0;
   result.distances = MeshDistances{{0.3, 0.2, 0.1}, {0.4, 0.25, 0.15}, 0.4, 0.25};
-  EXPECT_EQ(cells_of(result, "largest sampled"), (Cells{"0.3", "0.4", "0.4", "20"}));
+  EXPECT_EQ(cells_of(result, "largest"), (Cells{"0.3", "0.4", "0.4", "20"}));
   EXPECT_EQ(cells_of(result, "root mean square"), (Cells{"0.2", "0.25", "0.25", "12.5"}));
   EXPECT_EQ(cells_of(result, "mean"), (Cells{"0.1", "0.15", "0.15", "7.5"}));
   result.scan_quality.edge_length = {};

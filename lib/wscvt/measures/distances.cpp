@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -200,34 +201,172 @@ std::vector<Vector3> vertices_of(const IndexedMesh& mesh) {
   return vertices;
 }
 
-/// The larger of two squares, as a sum of parts.
-struct LargestSquare {
+/// The larger of two distances, as a sum of parts.
+struct Largest {
   double value = 0.0;
 
-  LargestSquare& operator+=(const LargestSquare& other) {
+  Largest& operator+=(const Largest& other) {
     value = std::max(value, other.value);
     return *this;
   }
 };
 
-/// Samples and all vertices. A vertex costs little: its search ends at any face as near as the
-/// largest distance so far.
+using Piece = std::array<Vector3, 3>;
+
+std::array<Piece, 4> quarters_of(const Piece& piece) {
+  const auto& [a, b, c] = piece;
+  const Vector3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+  return {Piece{a, ab, ca}, Piece{ab, b, bc}, Piece{ca, bc, c}, Piece{ab, bc, ca}};
+}
+
+/// Finds the largest distance of points of faces by branch and bound: what may have a larger
+/// distance than found so far is quartered. A piece has none if its middle is near enough, or if
+/// all corners are near one face of the other mesh, because the distance from a convex set is
+/// convex (M. Tang, M. Lee, Y. Kim: Interactive Hausdorff distance computation, ACM Trans. Graph.
+/// 28 (2009)).
+class LargestDistance {
+ public:
+  /// `least`: smaller differences do not matter; length.
+  LargestDistance(const MeshDistance& to, double found, double least)
+      : to_(to), found_(found), least_(least) {}
+
+  double found() const { return found_; }
+
+  /// Quarters at most `most` pieces.
+  void search(const Piece& face, std::size_t most) {
+    open_.assign(1, face);
+    while (!open_.empty()) {
+      const Piece piece = open_.back();
+      open_.pop_back();
+      if (!may_be_farther(piece) || most == 0) continue;
+      --most;
+      for (const Piece& quarter : quarters_of(piece)) open_.push_back(quarter);
+    }
+  }
+
+ private:
+  /// What is at most this far is not looked for.
+  double limit() const { return found_ + std::max(0.01 * found_, least_); }
+
+  bool may_be_farther(const Piece& piece) {
+    const Vector3 middle = (piece[0] + piece[1] + piece[2]) / 3.0;
+    double reach = 0.0;
+    for (const Vector3& corner : piece) reach = std::max(reach, (corner - middle).norm());
+    // Any near face may do; the nearest takes a longer search.
+    const double enough = std::max(limit() - reach, 0.5 * limit());
+    if (to_.squared_distance(middle, near_, enough * enough) <= enough * enough) {
+      if (enough + reach <= limit() || is_near(piece)) return false;
+    }
+    found_ = std::max(found_, std::sqrt(to_.squared_distance(middle, near_, 0.0)));
+    return !is_near(piece);
+  }
+
+  /// Whether all points of the piece are near the face found last.
+  bool is_near(const Piece& piece) const {
+    return std::all_of(piece.begin(), piece.end(), [&](const Vector3& corner) {
+      return (to_.nearest_point_of(near_, corner) - corner).norm() <= limit();
+    });
+  }
+
+  const MeshDistance& to_;
+  double found_;
+  double least_;
+  std::size_t near_ = 0;
+  std::vector<Piece> open_;
+};
+
+/// Parallel walls far apart would need more; what is found is a distance anyway.
+constexpr std::size_t most_quartered = 256;
+/// Returns the diagonal of the box around points; length.
+double size_of(const std::vector<Vector3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
+  return box.diagonal().norm();
+}
+
+/// Returns the largest distance from the vertices of a mesh to another, at least `found`. They cost
+/// little: a search ends at any face as near as the largest distance so far.
+double farthest_vertex(const std::vector<Vector3>& vertices, const MeshDistance& to, double found,
+                       const Execution& execution) {
+  return execution
+      .parallel_sum(vertices.size(), distance_block, Largest{found},
+                    [&](std::size_t begin, std::size_t end) {
+                      double square = found * found;
+                      std::size_t near = 0;
+                      for (std::size_t i = begin; i < end; ++i) {
+                        square = std::max(square, to.squared_distance(vertices[i], near, square));
+                      }
+                      return Largest{std::sqrt(square)};
+                    })
+      .value;
+}
+
+/// Returns the largest distance from the points of a mesh to another, at least `found`.
+double largest_distance(const IndexedMesh& from, const MeshDistance& to, double found,
+                        const Execution& execution) {
+  const std::vector<Vector3> vertices = vertices_of(from);
+  const Largest of_vertices{farthest_vertex(vertices, to, found, execution)};
+  const double least = 1e-5 * size_of(vertices);
+  return execution
+      .parallel_sum(
+          from.triangles.size(), distance_block, of_vertices,
+          [&](std::size_t begin, std::size_t end) {
+            LargestDistance search(to, of_vertices.value, least);
+            for (std::size_t f = begin; f < end; ++f) {
+              const auto& [a, b, c] = from.triangles[f];
+              search.search({from.points[a], from.points[b], from.points[c]}, most_quartered);
+            }
+            return Largest{search.found()};
+          })
+      .value;
+}
+
+/// Returns the largest distance of points of the faces that are known to be farthest; `known`: by
+/// face, distances of points of it. Needs no tree of the reference.
+double largest_near_the_farthest(const IndexedMesh& mesh, const std::vector<double>& known,
+                                 const IndexedMesh& reference) {
+  constexpr std::size_t most_farthest = 256;
+  const std::size_t count = std::min(mesh.triangles.size(), most_farthest);
+  std::vector<std::size_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return known[a] != known[b] ? known[a] > known[b] : a < b;
+                    });
+  std::vector<Piece> faces;
+  std::vector<BoxGrid::Box> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [a, b, c] = mesh.triangles[order[i]];
+    faces.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
+    const BoxGrid::Box box = box_of(faces.back());
+    // No point of the face is farther from the nearest face than this.
+    const Vector3 reach = Vector3::Constant(known[order[i]] + box.diagonal().norm());
+    boxes.emplace_back(box.min() - reach, box.max() + reach);
+  }
+  const BoxGrid grid(std::move(boxes));
+  IndexedMesh part;
+  for (const Triangle& t : reference.triangles) {
+    const Piece corners = {reference.points[t[0]], reference.points[t[1]], reference.points[t[2]]};
+    bool is_near = false;
+    grid.visit(box_of(corners), [&](std::int32_t) { is_near = true; });
+    if (!is_near) continue;
+    const auto first = static_cast<std::int32_t>(part.points.size());
+    part.points.insert(part.points.end(), corners.begin(), corners.end());
+    part.triangles.push_back({first, first + 1, first + 2});
+  }
+  const double found = known[order.front()];
+  if (!has_area(part)) return found;
+  const MeshDistance to(part);
+  LargestDistance search(to, found, 1e-5 * size_of(mesh.points));
+  for (const Piece& face : faces) search.search(face, most_quartered);
+  return search.found();
+}
+
 OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
                            const Execution& execution) {
   OneSidedDistance result =
       of_samples(to.distances(area_uniform_samples(from, samples), execution), execution);
-  const std::vector<Vector3> vertices = vertices_of(from);
-  const LargestSquare sampled{result.maximum * result.maximum};
-  const LargestSquare largest = execution.parallel_sum(
-      vertices.size(), distance_block, sampled, [&](std::size_t begin, std::size_t end) {
-        LargestSquare part = sampled;
-        std::size_t near = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          part.value = std::max(part.value, to.squared_distance(vertices[i], near, part.value));
-        }
-        return part;
-      });
-  if (largest.value > sampled.value) result.maximum = std::sqrt(largest.value);
+  result.maximum = largest_distance(from, to, result.maximum, execution);
   return result;
 }
 
@@ -265,15 +404,34 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution) {
   check_distance_options({samples});
-  std::vector<Vector3> points = area_uniform_samples(mesh, samples);
-  const std::vector<Vector3> vertices = vertices_of(mesh);
-  points.insert(points.end(), vertices.begin(), vertices.end());
+  constexpr std::size_t denser = 4;
+  if (reference.triangles.size() <= denser * mesh.triangles.size()) {
+    return measure_distances(mesh, reference, {samples}, execution);
+  }
+  std::vector<double> of_faces(mesh.triangles.size(), 0.0);
+  std::vector<Vector3> points;
+  const std::vector<MeshPlace> places = area_uniform_places(mesh, samples);
+  for (const MeshPlace& place : places) points.push_back(point_at(mesh, place));
+  points.insert(points.end(), mesh.points.begin(), mesh.points.end());
   std::vector<double> distances = distances_to(reference, points, execution);
-  const double largest = *std::max_element(distances.begin(), distances.end());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double& of_face = of_faces[places[i].triangle];
+    of_face = std::max(of_face, distances[i]);
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) {
+      of_faces[f] = std::max(of_faces[f], distances[samples + static_cast<std::size_t>(v)]);
+    }
+  }
   distances.resize(samples);
   OneSidedDistance to = of_samples(distances, execution);
-  to.maximum = largest;
-  return both_of(to, one_sided(reference, MeshDistance(mesh, execution), samples, execution));
+  to.maximum = largest_near_the_farthest(mesh, of_faces, reference);
+  // The mesh is nearly flat beside a face of the dense reference, so a corner is the farthest.
+  const MeshDistance to_mesh(mesh, execution);
+  OneSidedDistance from =
+      of_samples(to_mesh.distances(area_uniform_samples(reference, samples), execution), execution);
+  from.maximum = farthest_vertex(vertices_of(reference), to_mesh, from.maximum, execution);
+  return both_of(to, from);
 }
 
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,

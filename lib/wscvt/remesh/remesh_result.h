@@ -59,9 +59,8 @@ struct RemeshResult {
   std::variant<OnScanReport, AsPublishedReport> method;
   /// As published of a scan; on the scan what `measures.series` returned.
   SeriesCoefficients coefficients;
-  /// Rms distance between scan and remesh, the larger of both ways, and the largest sampled;
-  /// length. Measured at all vertices and the samples of `distances`, or 5,000 points of each
-  /// without `distances`.
+  /// Rms and largest distance between scan and remesh, the larger of both ways; length. Those of
+  /// `distances`, or of sampled_distances with 5,000 samples.
   double rms_distance = 0.0;
   double largest_distance = 0.0;
   /// Opening, in % of the bounding box' diagonal, of a shrink-wrap that was remeshed with these

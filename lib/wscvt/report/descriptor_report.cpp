@@ -103,9 +103,9 @@ std::vector<DistanceRow> list_distances(const GrainMeasures& measures) {
   const OneSidedDistance& to = measures.distances->to_reference;
   const OneSidedDistance& from = measures.distances->from_reference;
   return {
-      {"largest_distance", "largest sampled, two-sided", measures.distances->largest},
-      {"largest_to_reference", "largest sampled, to the reference", to.maximum},
-      {"largest_from_reference", "largest sampled, from the reference", from.maximum},
+      {"largest_distance", "largest, two-sided", measures.distances->largest},
+      {"largest_to_reference", "largest, to the reference", to.maximum},
+      {"largest_from_reference", "largest, from the reference", from.maximum},
       {"rms_distance", "root mean square, two-sided", measures.distances->root_mean_square},
       {"rms_to_reference", "root mean square, to the reference", to.root_mean_square},
       {"rms_from_reference", "root mean square, from the reference", from.root_mean_square},

@@ -234,7 +234,7 @@ void append_distances(const RemeshResult& result, std::vector<std::string>& line
   const OneSidedDistance& from = result.distances->from_reference;
   const std::vector<std::vector<std::string>> rows = {
       {"Distance, length", "from remesh", "from scan", "two-sided", "% of equivalent radius"},
-      row("  largest sampled", to.maximum, from.maximum, result.distances->largest),
+      row("  largest", to.maximum, from.maximum, result.distances->largest),
       row("  root mean square", to.root_mean_square, from.root_mean_square,
           result.distances->root_mean_square),
       row("  mean", to.mean, from.mean, std::max(to.mean, from.mean)),

@@ -6,7 +6,7 @@
 
 Remeshes every mesh file of FOLDER with PROGRAM (build/release/lib/wscvt) and prints one row per number of
 nodes: mean edge ratio, coefficient of variation of the edge length, smallest angle, two-sided rms and
-largest sampled distance in % of the equivalent radius, errors of area and volume in %, intersecting
+largest distance in % of the equivalent radius, errors of area and volume in %, intersecting
 triangle pairs, seconds of the whole process with distances, and the number of warnings.
 """
 import argparse
