@@ -57,7 +57,7 @@ TEST(CsvReader, TellsARecordThatIsCut) {
 
 TEST(CsvReader, TakesALastRecordWithoutALineBreakIfAsked) {
   std::istringstream stream("a;b\n1,5;\"2;3\"");
-  CsvReader reader(stream, ';');
+  CsvReader reader(stream, Separator::OfFirstRecord);
   Fields fields;
   EXPECT_FALSE(reader.last(fields));
   ASSERT_TRUE(reader.next(fields));

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 #include "wscvt/base/error.h"
@@ -18,6 +19,7 @@
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/version.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -320,18 +322,6 @@ bool next_line(std::istream& stream, std::string& line) {
   return !line.empty() || !stream.eof();
 }
 
-/// Splits a line at commas, semicolons, tabs and blanks.
-std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  while ((at = line.find_first_not_of(" \t,;", at)) != std::string::npos) {
-    const std::size_t end = std::min(line.find_first_of(" \t,;", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
 /// Columns of x, y, z and the radius.
 struct SphereColumns {
   std::array<std::size_t, 4> of{};
@@ -340,70 +330,34 @@ struct SphereColumns {
   bool has_heading = true;
   double radius_unit = 1.0;  ///< nanometres, or 1 with centre_unit
   double centre_unit = 1.0;
-  std::string two_units;  ///< why the heading's units make no sense; empty: they do
+  std::string unit_fault;  ///< why the heading's units make no sense; empty: they do
 };
 
-/// Sets what the units in a heading, "x [mm]" or "r[um]", mean. `words` are those of the heading,
-/// with the units.
-void read_units(const std::vector<std::string>& words, SphereColumns& columns) {
-  std::vector<std::string> units(columns.count);
-  std::size_t column = 0;
-  for (const std::string& word : words) {
-    if (word == "#") continue;
-    const bool is_unit = word.front() == '[' || word.front() == '(';
-    if (!is_unit && column++ == columns.count) return;
-    const std::size_t begin = word.find_first_of("[(");
-    if (begin == std::string::npos || column == 0) continue;
-    std::string unit = word.substr(begin + 1, word.find_first_of("])", begin) - begin - 1);
-    if (unit == "\xC2\xB5m" || unit == "\xCE\xBCm") unit = "um";
-    units[column - 1] = unit;
-  }
-  std::string of_x;
-  const std::string& of_radius = units[columns.of[3]];
-  const auto refuse_units = [&](const std::string& one, const std::string& other) {
-    columns.two_units =
-        "has columns in " + one + " and in " + other + ". Convert them to one unit.";
-  };
-  for (const std::size_t axis : {0U, 1U, 2U}) {
-    const std::string& other = units[columns.of[axis]];
-    if (of_x.empty()) of_x = other;
-    if (other != of_x && !other.empty()) refuse_units(of_x, other);
-  }
-  if (of_x == of_radius || of_x.empty() || of_radius.empty()) return;
-  // Whole numbers, so that a radius of 900 um is the .9 mm of another table.
-  const auto nanometres = [](const std::string& unit) {
-    return unit == "nm"   ? 1.0
-           : unit == "um" ? 1e3
-           : unit == "mm" ? 1e6
-           : unit == "cm" ? 1e7
-           : unit == "m"  ? 1e9
-                          : 0.0;
-  };
-  columns.centre_unit = nanometres(of_x);
-  columns.radius_unit = nanometres(of_radius);
-  if (columns.centre_unit * columns.radius_unit == 0.0) refuse_units(of_x, of_radius);
+/// Sets what the units of a heading mean. The radius may have another unit than the centre.
+void read_units(const std::vector<TableHeading>& headings, SphereColumns& columns) {
+  const auto unit = [&](std::size_t k) { return headings[columns.of[k]].unit; };
+  const CommonUnit centre = common_unit({unit(0), unit(1), unit(2)});
+  const CommonUnit all = common_unit({centre.unit, unit(3)});
+  const double of_centre = nanometres(centre.unit);
+  const double of_radius = nanometres(unit(3));
+  columns.unit_fault = centre.fault;
+  if (all.fault.empty() || !centre.fault.empty()) return;
+  if (of_centre * of_radius == 0.0) columns.unit_fault = all.fault;
+  columns.centre_unit = of_centre;
+  columns.radius_unit = of_radius;
 }
 
 /// Returns nothing if the first line is no heading of spheres and not four numbers.
 std::optional<SphereColumns> columns_of(const std::string& first_line) {
-  std::vector<std::string> words = words_of(first_line);
-  // Units and the mark of a comment are words of their own in "# x [mm]".
-  words.erase(std::remove_if(words.begin(), words.end(),
-                             [](const std::string& word) {
-                               return word == "#" || word.front() == '[' || word.front() == '(';
-                             }),
-              words.end());
+  const std::vector<TableHeading> headings = read_headings(first_line);
   SphereColumns columns;
-  columns.count = words.size();
+  columns.count = headings.size();
   std::size_t numbers = 0;
   std::array<int, 4> found{};
   int diameters = 0;
-  for (std::size_t k = 0; k < words.size(); ++k) {
-    if (number_in(words[k])) ++numbers;
-    std::string name = lower_case(words[k]);
-    name = name.substr(0, name.find_first_of("[(", 1));
-    name.erase(0, name.find_first_not_of("#\"\xEF\xBB\xBF"));
-    if (!name.empty() && name.back() == '"') name.pop_back();
+  for (std::size_t k = 0; k < headings.size(); ++k) {
+    const std::string name = lower_case(headings[k].name);
+    if (number_in(name)) ++numbers;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "xyz"[axis]);
       if (name == letter || name == "c" + letter || name == "center_" + letter ||
@@ -426,10 +380,10 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
     found[3] = diameters;
   }
   if (found == std::array<int, 4>{1, 1, 1, 1}) {
-    read_units(words_of(first_line), columns);
+    read_units(headings, columns);
     return columns;
   }
-  if (numbers != 4 || words.size() != 4) return {};
+  if (numbers != 4 || headings.size() != 4) return {};
   columns.of = {0, 1, 2, 3};
   columns.has_heading = false;
   columns.has_diameter = false;
@@ -487,18 +441,19 @@ std::vector<Sphere> read_clump(const std::string& path) {
            "\" is not a table of spheres. Its first line must name the columns x, y, z and r (or "
            "radius, or diameter), or be four numbers: x, y, z and the radius.");
   }
-  if (!columns->two_units.empty()) refuse("\"" + path + "\" " + columns->two_units);
+  if (!columns->unit_fault.empty()) refuse("\"" + path + "\" " + columns->unit_fault);
   std::vector<Sphere> spheres;
+  std::vector<std::string_view> fields;
   bool is_read_already = !columns->has_heading;
   if (!is_read_already) ++number;
   for (; is_read_already || next_line(stream, line); ++number) {
     is_read_already = false;
     if (line.empty() || line.front() == '#') continue;
-    const std::vector<std::string> words = words_of(line);
+    split_fields(line, fields);
     std::array<double, 4> values{};
-    bool is_read = words.size() == columns->count;
+    bool is_read = fields.size() == columns->count;
     for (std::size_t k = 0; k < values.size() && is_read; ++k) {
-      const std::optional<double> value = number_in(words[columns->of[k]]);
+      const std::optional<double> value = number_in(fields[columns->of[k]]);
       is_read = value && std::isfinite(*value);
       if (is_read) values[k] = *value;
     }

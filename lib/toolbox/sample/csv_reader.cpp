@@ -2,9 +2,13 @@
 #include "toolbox/sample/csv_reader.h"
 
 #include <algorithm>
+#include <charconv>
 #include <istream>
-#include <string_view>
+#include <limits>
+#include <system_error>
 #include <utility>
+
+#include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
 
@@ -60,7 +64,9 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   std::string text;
   std::string line;
   bool quoted = false;
+  const std::size_t begin = lines_ + 1;
   while (std::getline(stream_, line)) {
+    ++lines_;
     const bool is_whole = !stream_.eof();
     const auto quotes = std::count(line.begin(), line.end(), '"');
     quoted = quoted != (quotes % 2 == 1);
@@ -71,6 +77,15 @@ bool CsvReader::next(std::vector<std::string>& fields) {
     }
     if (is_whole) text += '\n';
     if (!is_whole || !quoted) break;
+  }
+  if (!text.empty()) line_ = begin;
+  if (begin == 1 && choice_ != Separator::Comma) {
+    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    if (names_separator(text)) {
+      choice_ = Separator::Comma;
+      if (text.size() > 4 && text[4] != '\r' && text[4] != '\n') separator_ = text[4];
+      return next(fields);
+    }
   }
   is_cut_ = !text.empty() && (quoted || text.back() != '\n');
   if (is_cut_ && !quoted) rest_.swap(text);
@@ -83,16 +98,35 @@ bool CsvReader::next(std::vector<std::string>& fields) {
 
 bool CsvReader::last(std::vector<std::string>& fields) {
   if (rest_.empty()) return false;
-  take(rest_ + '\n', fields);
+  text_.swap(rest_);
   rest_.clear();
+  take(text_ + '\n', fields);
   return true;
 }
 
 void CsvReader::take(const std::string& record, std::vector<std::string>& fields) {
+  if (choice_ != Separator::Comma) {
+    const char found = separator_in(record, ";\t,");
+    separator_ = found == '\0' ? ',' : found;
+    if (choice_ == Separator::OfFirstRecord) choice_ = Separator::Comma;  // no more to find
+  }
   const bool has_quotes = record.find('"') != std::string::npos;
   record_.resize(has_quotes ? split_quoted(record, separator_, record_)
                             : split(record, separator_, record_));
   record_.swap(fields);
+}
+
+std::optional<double> number_in_field(std::string_view field, char decimal) {
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  std::string text(trimmed(field));
+  const std::size_t mark = text.find(decimal);
+  if (mark != std::string::npos) text[mark] = '.';
+  if (text.empty() || text == "NA") return missing;
+  const char* const begin = text.data() + (text.front() == '+' ? 1 : 0);
+  double value = missing;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return {};
+  return error == std::errc() ? value : std::numeric_limits<double>::infinity();
 }
 
 std::vector<std::string> column_of(std::istream& table, const std::string& name) {

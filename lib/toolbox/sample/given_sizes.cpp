@@ -3,57 +3,27 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <utility>
 
+#include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/mesh_files/text_fields.h"
+#include "wscvt/mesh_files/table_heading.h"
 
 namespace wscvt {
 
 namespace {
 
-/// `decimal`: the decimal mark besides the point.
-std::optional<double> number_of(std::string text, char decimal) {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) {
-    text.pop_back();
-  }
-  text.erase(0, text.find_first_not_of(" \t\""));
-  if (!text.empty() && text.back() == '"') text.pop_back();
-  std::replace(text.begin(), text.end(), decimal, '.');
-  double value = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) return {};
-  return value;
-}
-
-/// A line in two fields. Only commas separate where there is no semicolon and no tab.
-struct Fields {
-  std::string first;
-  std::string second;
-  char decimal = '.';
-};
-
-Fields fields_of(const std::string& text) {
-  std::size_t cut = text.find_first_of(";\t");
-  const char decimal = cut == std::string::npos ? '.' : ',';
-  if (cut == std::string::npos) cut = text.find(',');
-  if (cut == std::string::npos) return {text, "", decimal};
-  return {text.substr(0, cut), text.substr(cut + 1), decimal};
-}
-
 /// Refuses a heading whose columns are not what is read.
-void check_heading(const Fields& heading, const std::string& path) {
-  const std::string first = lower_case(heading.first);
-  const std::string second = lower_case(heading.second);
+void check_heading(const std::vector<std::string>& fields, const std::string& path) {
+  const std::string first = lower_case(fields[0]);
+  const std::string second = lower_case(fields.size() < 2 ? "" : fields[1]);
   const auto has = [](const std::string& text, const std::vector<std::string>& words) {
     return std::any_of(words.begin(), words.end(), [&](const std::string& word) {
       return text.find(word) != std::string::npos;
@@ -66,7 +36,8 @@ void check_heading(const Fields& heading, const std::string& path) {
     what = "has the percentage retained or coarser. Write the percentage finer, which rises to 100";
   } else if (has(first, {"phi", "\xcf\x86"})) {
     what = "has sizes on the phi scale. Write diameters: 2 to the power of -phi, in mm";
-  } else if (has(second, {"mm", "um", "\xc2\xb5m"}) && !has(second, {"%"})) {
+  } else if (nanometres(known_unit(second).value_or(read_heading(second).unit)) > 0.0 &&
+             !has(second, {"%"})) {
     what = "has a length in the second column. Write the percentage finer by mass there";
   }
   if (!what.empty()) refuse("The heading of \"" + path + "\" " + what + ".");
@@ -123,30 +94,35 @@ GivenSizes read_given_sizes(const std::string& path) {
   if (!file) refuse_to_open(path, errno);
   std::vector<double> diameters;
   std::vector<double> percentages;
-  std::size_t line = 0;
-  bool may_be_heading = true;
-  for (std::string text; std::getline(file, text);) {
-    ++line;
-    if (line == 1 && text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
-    const bool is_blank = text.find_first_not_of(" \t\r") == std::string::npos;
-    if (is_blank || (may_be_heading && names_separator(text))) continue;
-    const Fields fields = fields_of(text);
-    const auto diameter = number_of(fields.first, fields.decimal);
-    const auto percentage = number_of(fields.second, fields.decimal);
-    const bool has_digit = text.find_first_of("0123456789") == text.find_first_not_of(" \t\"+-.,;");
-    if (diameter && percentage) {
+  CsvReader reader(file, Separator::OfEachRecord);
+  const auto refuse_line = [&] {
+    refuse("Line " + std::to_string(reader.line()) + " of \"" + path +
+           "\" is not a diameter, a comma and the percentage finer by mass, as two numbers. Write "
+           "a unit into the heading only, and all diameters in it.");
+  };
+  std::vector<std::string> fields;
+  while (reader.next(fields) || reader.last(fields)) {
+    const std::string& text = reader.text();
+    const std::size_t first = text.find_first_not_of(" \t\r\n\"+-.,;");
+    if (first == std::string::npos) continue;
+    const auto number = [&](std::size_t k) -> std::optional<double> {
+      const auto read = number_in_field(k < fields.size() ? fields[k] : "", reader.decimal());
+      if (read && std::isfinite(*read)) return read;
+      return {};
+    };
+    const auto diameter = number(0);
+    const auto percentage = number(1);
+    const bool begins_with_number = text[first] >= '0' && text[first] <= '9';
+    if (diameter && percentage && fields.size() == 2) {
       diameters.push_back(*diameter);
       percentages.push_back(*percentage);
-    } else if (may_be_heading && !has_digit) {
+    } else if (diameters.empty() && !begins_with_number && !percentage) {
       check_heading(fields, path);
-    } else if (!diameters.empty() || has_digit || trimmed(fields.second) != "%") {  // or units
-      refuse(
-          "Line " + std::to_string(line) + " of \"" + path +
-          "\" is not a diameter, a comma and the percentage finer by mass, as two numbers. Write "
-          "a unit into the heading only, and all diameters in it.");
+    } else {
+      refuse_line();
     }
-    may_be_heading = false;
   }
+  if (reader.is_cut()) refuse_line();
   if (file.bad()) refuse_to_read(path);
   return {std::move(diameters), std::move(percentages)};
 }

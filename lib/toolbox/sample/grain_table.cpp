@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -21,6 +20,7 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -28,23 +28,6 @@ namespace wscvt {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-
-/// Returns nothing for text. `decimal` is the decimal mark besides the point.
-std::optional<double> field_number(std::string_view field, char decimal) {
-  std::string with_point;
-  std::string_view text = trimmed(field);
-  if (decimal != '.' && text.find(decimal) != std::string_view::npos) {
-    with_point = text;
-    with_point[text.find(decimal)] = '.';
-    text = with_point;
-  }
-  if (text.empty() || text == "NA") return missing;
-  if (text.front() == '+') text.remove_prefix(1);
-  double value = missing;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return {};
-  return error == std::errc() ? value : std::numeric_limits<double>::infinity();
-}
 
 /// Whether a field is a number with marks between its thousands, such as 1,000.5 or 12 500.
 bool has_thousands(std::string_view field) {
@@ -77,57 +60,11 @@ bool is_fraction(std::string_view name) {
   return name.rfind("sphericity", 0) == 0 || name == "convexity";
 }
 
-/// Returns a unit in the form of our headings, "mm^3", or nothing for other texts.
-std::optional<std::string> unit_in(std::string_view text) {
-  std::string unit(trimmed(text));
-  const bool has_brackets = unit.size() > 2 && ((unit.front() == '[' && unit.back() == ']') ||
-                                                (unit.front() == '(' && unit.back() == ')'));
-  if (has_brackets) unit = unit.substr(1, unit.size() - 2);
-  constexpr std::pair<std::string_view, std::string_view> forms[] = {
-      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB2", "^2"}, {"\xC2\xB3", "^3"}};
-  for (const auto& [from, to] : forms) {
-    const std::size_t at = unit.find(from);
-    if (at != std::string::npos) unit.replace(at, from.size(), to);
-  }
-  static const std::regex known("(nm|um|mm|cm|m)(\\^?[23])?");
-  if (!std::regex_match(unit, known)) return {};
-  if (unit.back() == '2' || unit.back() == '3') {
-    if (unit[unit.size() - 2] != '^') unit.insert(unit.size() - 1, "^");
-  }
-  return unit;
-}
-
-GrainColumn column_of(std::string_view heading) {
-  const std::string_view text = trimmed(heading);
-  const std::size_t round = text.rfind('(');
-  if (round != std::string_view::npos && round > 0) {
-    // Other columns keep their names.
-    const std::string_view name = trimmed(text.substr(0, round));
-    const auto unit = unit_in(text.substr(round));
-    if (unit && is_size(name)) return {std::string(name), *unit};
-  }
-  const std::size_t bracket = text.rfind('[');
-  if (text.empty() || text.back() != ']' || bracket == std::string_view::npos) {
-    return {std::string(text), ""};
-  }
-  const std::string_view unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
-  return {std::string(trimmed(text.substr(0, bracket))), unit_in(unit).value_or(std::string(unit))};
-}
-
-/// Returns a text that is no UTF-8 as Latin-1, which programs write on Windows.
-std::string as_utf8(const std::string& text) {
-  if (readable(text, "\t\n\r") == text) return text;
-  std::string result;
-  for (const char byte : text) {
-    const auto code = static_cast<unsigned char>(byte);
-    if (code < 0xa0) {
-      result += byte;
-    } else {
-      result += static_cast<char>(0xc0U | code >> 6U);
-      result += static_cast<char>(0x80U | (code & 0x3fU));
-    }
-  }
-  return result;
+/// Only in square brackets another column than a size has its unit. Else it keeps its heading.
+GrainColumn column_of(const TableHeading& heading) {
+  const bool is_square = !heading.whole.empty() && heading.whole.back() == ']';
+  const bool has_unit = is_square || (is_size(heading.name) && known_unit(heading.unit));
+  return has_unit ? GrainColumn{heading.name, heading.unit} : GrainColumn{heading.whole, ""};
 }
 
 /// Content of a column.
@@ -136,7 +73,7 @@ enum class Role { Undecided, Number, Text };
 /// Reads the rows of a file one after the other.
 class TableReader {
  public:
-  TableReader(const std::string& path, char decimal) : path_(path), decimal_(decimal) {}
+  TableReader(const std::string& path, const CsvReader& reader) : path_(path), reader_(reader) {}
 
   void read_heading(const std::vector<std::string>& fields);
   void read_row(const std::vector<std::string>& fields);
@@ -150,26 +87,19 @@ class TableReader {
   void check_area() const;
   GrainTable table();
 
-  /// Counts the line breaks of the last record.
-  void count_lines(const std::string& record) {
-    line_ = next_line_;
-    next_line_ += static_cast<std::size_t>(std::count(record.begin(), record.end(), '\n'));
-  }
-
   /// Whether the table is a batch's, which may be cut in its last row.
   bool has_status() const { return status_field_.has_value(); }
 
-  [[noreturn]] void fail(const std::string& what) const {
-    refuse("\"" + readable(path_, "") + "\", line " + std::to_string(line_) + ": " + what);
+  [[noreturn]] void fail(const std::string& what) const { fail_at(reader_.line(), what); }
+  [[noreturn]] void fail_at(std::size_t line, const std::string& what) const {
+    refuse("\"" + readable(path_, "") + "\", line " + std::to_string(line) + ": " + what);
   }
 
  private:
   const std::string& path_;
-  char decimal_;
-  std::size_t line_ = 1;
-  std::size_t next_line_ = 1;
+  const CsvReader& reader_;
   std::vector<GrainColumn> fields_;
-  std::vector<ForeignColumn> foreign_;  ///< empty: the table is not another program's
+  std::vector<ForeignColumn> foreign_;
   std::vector<Role> roles_;
   std::optional<std::size_t> name_field_;  ///< none: grains have the numbers of their rows
   std::optional<std::size_t> file_field_;
@@ -197,28 +127,25 @@ class TableReader {
 
 void TableReader::read_heading(const std::vector<std::string>& fields) {
   std::unordered_set<std::string> names;
-  std::vector<std::string> headings = fields;
-  // Spreadsheets write this mark at the beginning of a UTF-8 file.
-  if (headings[0].rfind("\xEF\xBB\xBF", 0) == 0) headings[0].erase(0, 3);
-  if (headings[0].rfind("\xFF\xFE", 0) == 0 || headings[0].rfind("\xFE\xFF", 0) == 0) {
+  if (fields[0].rfind("\xFF\xFE", 0) == 0 || fields[0].rfind("\xFE\xFF", 0) == 0) {
     fail("the table is UTF-16. Save it as UTF-8.");
   }
-  for (std::string& heading : headings) heading = as_utf8(heading);
   const bool has_numbers_only =
-      std::all_of(headings.begin(), headings.end(), [&](const std::string& field) {
-        return !trimmed(field).empty() && field_number(field, decimal_).has_value();
+      std::all_of(fields.begin(), fields.end(), [&](const std::string& field) {
+        return !trimmed(field).empty() && number_in_field(field, reader_.decimal()).has_value();
       });
   if (has_numbers_only) {
     fail(
         "the first line has numbers, not the names of the columns. Write a heading first, such as "
         "\"grain,volume,area\", with a name per column.");
   }
-  if (const auto foreign = foreign_columns(headings)) foreign_ = *foreign;
+  std::vector<TableHeading> headings;
+  for (const std::string& field : fields) headings.push_back(wscvt::read_heading(field));
+  foreign_ = foreign_columns(headings);
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    fields_.push_back(
-        foreign_.empty()
-            ? column_of(headings[k])
-            : GrainColumn{foreign_[k].name, unit_in(foreign_[k].unit).value_or(foreign_[k].unit)});
+    const std::string foreign(foreign_[k].name);
+    fields_.push_back(foreign.empty() ? column_of(headings[k])
+                                      : GrainColumn{foreign, headings[k].unit});
     const std::string& name = fields_.back().name;
     if (!names.insert(name).second) {
       fail("two columns are named \"" + readable(name, "") + "\". Rename one of them.");
@@ -235,7 +162,7 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     fail(
         "the table has only one column. Separate columns by commas, semicolons or tabs; the first "
         "line has their names" +
-        std::string(headings[0].rfind('#', 0) == 0 ? ", so delete the comments above it." : "."));
+        std::string(fields[0].rfind('#', 0) == 0 ? ", so delete the comments above it." : "."));
   }
   for (const GrainColumn& column : fields_) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
@@ -257,7 +184,7 @@ void TableReader::note_marks(std::size_t k, const std::string& field) {
     marks.has_decimal = true;
   } else if (marks.grouped.empty()) {
     marks.grouped = field;
-    marks.line = line_;
+    marks.line = reader_.line();
   }
 }
 
@@ -286,13 +213,13 @@ void TableReader::check_field(std::size_t k, const std::string& field,
     }
     return;
   }
-  if (decimal_ == ',') note_marks(k, field);
+  if (reader_.decimal() == ',') note_marks(k, field);
   // In a table with decimal commas 1.000 may be one or a thousand.
-  if (decimal_ == ',' && field.find(',') != std::string::npos) has_comma_ = true;
-  if (decimal_ == ',' && field.find('.') != std::string::npos && has_thousands(field) &&
+  if (reader_.decimal() == ',' && field.find(',') != std::string::npos) has_comma_ = true;
+  if (reader_.decimal() == ',' && field.find('.') != std::string::npos && has_thousands(field) &&
       doubtful_.empty()) {
     doubtful_ = field;
-    doubtful_line_ = line_;
+    doubtful_line_ = reader_.line();
   }
   if (std::isnan(*number)) {
     if (!is_size(fields_[k].name) || lower_case(trimmed(field)).find("nan") == std::string::npos) {
@@ -353,7 +280,7 @@ void TableReader::check_diameter() const {
 /// Throws for a grain that has a row above.
 void TableReader::check_name(const std::string& name) {
   if (!name_field_ || fields_[*name_field_].name != "grain" || trimmed(name).empty()) return;
-  const auto [found, is_new] = lines_.emplace(trimmed(name), line_);
+  const auto [found, is_new] = lines_.emplace(trimmed(name), reader_.line());
   if (is_new) return;
   fail("the grain \"" + readable(name, "") + "\" has a row in line " +
        std::to_string(found->second) + " too, and would count twice. Leave one out, or rename it.");
@@ -376,20 +303,16 @@ void TableReader::refuse_summary(const std::vector<std::string>& fields) const {
 
 /// Takes the units of a row of units below the heading. Returns false for another row.
 bool TableReader::takes_units(const std::vector<std::string>& fields) {
-  if (!table_.grains.empty() || !foreign_.empty() || unit_field_) return false;
+  if (!table_.grains.empty() || unit_field_) return false;
   bool has_unit = false;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    const std::string field = as_utf8(std::string(trimmed(fields[k])));
-    if (unit_in(field)) {
-      has_unit = true;
-    } else if (field != "-" && field != "[-]" && !field.empty() && name_field_ != k) {
-      return false;
-    }
+    const auto unit = known_unit(fields[k]);
+    if (!unit && !trimmed(fields[k]).empty() && name_field_ != k) return false;
+    has_unit = has_unit || !unit.value_or("").empty();
   }
   if (!has_unit) return false;
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    const auto unit = unit_in(as_utf8(fields[k]));
-    if (unit && fields_[k].unit.empty()) fields_[k].unit = *unit;
+    if (fields_[k].unit.empty()) fields_[k].unit = known_unit(fields[k]).value_or("");
   }
   return true;
 }
@@ -398,7 +321,7 @@ bool TableReader::takes_units(const std::vector<std::string>& fields) {
 void TableReader::check_unit(const std::vector<std::string>& fields) {
   if (!unit_field_) return;
   const std::string text(trimmed(fields[*unit_field_]));
-  const std::string unit = unit_in(as_utf8(text)).value_or(text);
+  const std::string unit = known_unit(text).value_or(text);
   if (unit.empty()) return;
   if (unit_.empty()) unit_ = unit;
   if (unit == unit_) return;
@@ -425,10 +348,8 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text) continue;
-    std::optional<double> number = field_number(fields[k], decimal_);
-    if (number && !foreign_.empty()) {
-      *number = foreign_[k].factor * pow(*number, foreign_[k].exponent);
-    }
+    std::optional<double> number = number_in_field(fields[k], reader_.decimal());
+    if (number) *number = foreign_[k].factor * portable::pow(*number, foreign_[k].exponent);
     check_field(k, fields[k], number);
     if (!number && roles_[k] == Role::Number) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
@@ -443,18 +364,20 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
 
 GrainTable TableReader::table() {
   if (has_comma_ && !doubtful_.empty()) {
-    line_ = doubtful_line_;
-    fail("\"" + readable(doubtful_, "") +
-         "\" may have a point between thousands, because other fields have decimal commas. Write "
-         "numbers without marks between thousands.");
+    fail_at(doubtful_line_, "\"" + readable(doubtful_, "") +
+                                "\" may have a point between thousands, because other fields have "
+                                "decimal commas. Write "
+                                "numbers without marks between thousands.");
   }
   for (const Marks& marks : marks_) {
     if (marks.grouped.empty() || !marks.has_whole || marks.has_decimal) continue;
-    line_ = marks.line;
-    fail("\"" + readable(marks.grouped, "") +
-         "\" may have a point between thousands, because other numbers of its column are whole. "
-         "Write numbers without marks between thousands. If the point is a decimal point, separate "
-         "the columns by commas.");
+    fail_at(
+        marks.line,
+        "\"" + readable(marks.grouped, "") +
+            "\" may have a point between thousands, because other numbers of its column are whole. "
+            "Write numbers without marks between thousands. If the point is a decimal point, "
+            "separate "
+            "the columns by commas.");
   }
   if (table_.grains.empty()) fail("no row of the table has a grain.");
   std::vector<std::size_t> taken;
@@ -488,29 +411,6 @@ bool has_old_lines(const std::string& path) {
   return head.find('\r') != std::string::npos && head.find('\n') == std::string::npos;
 }
 
-/// Columns of a table.
-struct Columns {
-  char separator = ',';
-  std::size_t lines = 0;  ///< to pass over: the line "sep=;" of spreadsheets, above the heading
-};
-
-/// Returns the separator of the columns of a heading. Leaves the stream at the heading.
-Columns columns_of(std::istream& stream) {
-  std::string heading;
-  std::getline(stream, heading);
-  const std::size_t mark = heading.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0;
-  if (names_separator(std::string_view(heading).substr(mark))) {
-    const std::string named = heading.substr(heading.find('=') + 1, 1);
-    return {named.empty() || named == "\r" ? ',' : named.front(), 1};
-  }
-  stream.clear();
-  stream.seekg(0);
-  for (const char separator : {',', ';', '\t'}) {
-    if (heading.find(separator) != std::string::npos) return {separator};
-  }
-  return {};
-}
-
 }  // namespace
 
 std::optional<std::size_t> GrainTable::find(std::string_view name) const {
@@ -539,28 +439,20 @@ GrainTable read_grain_table(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream.is_open()) refuse_to_open(path, errno);
-  const Columns columns = columns_of(stream);
-  CsvReader reader(stream, columns.separator);
-  TableReader table(path, columns.separator == ',' ? '.' : ',');
-  table.count_lines(std::string(columns.lines, '\n'));
+  CsvReader reader(stream, Separator::OfFirstRecord);
+  TableReader table(path, reader);
   std::vector<std::string> fields;
   if (!reader.next(fields)) {
     table.fail(has_old_lines(path)
                    ? "the lines end by CR, as on old Macs. Save the table with LF or CR LF."
                    : "the file has no table. Write a heading and a row per grain.");
   }
-  table.count_lines(reader.text());
   table.read_heading(fields);
-  while (reader.next(fields)) {
-    table.count_lines(reader.text());
-    table.read_row(fields);
-  }
+  while (reader.next(fields)) table.read_row(fields);
   if (stream.bad()) refuse_to_read(path);
   if (!table.has_status() && reader.last(fields)) {
-    table.count_lines("");
     table.read_row(fields);
   } else if (reader.is_cut()) {
-    table.count_lines("");
     table.fail(
         "the file ends within this row. If the row is complete, end it with a line break. "
         "Otherwise run the batch of this table again to complete it.");

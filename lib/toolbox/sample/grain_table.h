@@ -39,15 +39,16 @@ struct GrainTable {
 std::string heading_of(const GrainColumn& column);
 
 /// Reads a CSV file (RFC 4180, a heading in the first line) with commas between columns and decimal
-/// points. If the heading has no comma, columns are separated by semicolons or tabs, and decimals
-/// have points or commas, as spreadsheets of many languages write them. A line "sep=;" above the
-/// heading names the separator.
+/// points. If the heading has a semicolon or a tab, it separates the columns, and decimals have
+/// points or commas, as spreadsheets of many languages write them. A line "sep=;" above the heading
+/// names the separator.
 ///
 /// The column "grain", or else the first column, names the grains. The column "file" names mesh
 /// files. Every other column contains numbers if its first entry is a number, and is left out if
 /// that entry is text. An empty field, "nan", "NA" and infinities mean that the number is missing.
-/// A heading may end with a unit in brackets, or a row of units follows it. A column "unit" has one
-/// unit for all rows. Tables of the Sand Atlas, MorphoLibJ and SHAPE are
+/// A heading may end with a unit in square brackets; those of sizes also in round brackets and
+/// behind a comma, an underscore, a slash or a blank. Or a row of units follows the headings. A
+/// column "unit" has one unit for all rows. Tables of the Sand Atlas, MorphoLibJ and SHAPE are
 /// recognised by their headings; their columns get our names and definitions (foreign_columns.h).
 /// Rows with the status "failed" (column "status") are counted and left out. The column "error" is
 /// left out.

@@ -16,6 +16,7 @@
 
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -332,15 +333,6 @@ std::int64_t count_of(const Attributes& attributes, const std::string& key, std:
   return *number;
 }
 
-/// Returns the length of a unit in metres; nothing for unknown units.
-std::optional<double> in_metres(const std::string& unit) {
-  static const std::map<std::string, double> units = {{"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3},
-                                                      {"cm", 1e-2}, {"m", 1.0},   {"inch", 0.0254}};
-  const auto found = units.find(unit);
-  if (found == units.end()) return std::nullopt;
-  return found->second;
-}
-
 void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayout& layout) {
   std::array<std::string, 3> units;
   Vector3 size = Vector3::Zero();
@@ -368,14 +360,14 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
   layout.unit = units[0];
   for (std::size_t axis = 1; axis < 3; ++axis) {
     if (units[axis] == units[0]) continue;
-    const std::optional<double> from = in_metres(units[axis]);
-    const std::optional<double> to = in_metres(units[0]);
-    if (!from || !to) {
+    const double from = nanometres(units[axis]);
+    const double to = nanometres(units[0]);
+    if (from * to == 0.0) {
       refuse_volume(path, "has voxel sizes in " + in_quotes(units[0]) + " and in " +
                               in_quotes(units[axis]) +
                               ". Save it in one unit, or without OME's text.");
     }
-    size[static_cast<Eigen::Index>(axis)] *= *from / *to;
+    size[static_cast<Eigen::Index>(axis)] *= from / to;
   }
   layout.voxel_size = size;
 }

@@ -6,35 +6,12 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Returns all names of each unit in lower case, the displayed name first.
-const std::vector<std::vector<std::string>>& unit_names() {
-  static const std::vector<std::vector<std::string>> rows = {
-      {"um", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\\u00b5m", "micron", "microns", "micrometer",
-       "micrometers", "micrometre", "micrometres"},
-      {"nm", "nanometer", "nanometers", "nanometre", "nanometres"},
-      {"mm", "millimeter", "millimeters", "millimetre", "millimetres"},
-      {"cm", "centimeter", "centimeters", "centimetre", "centimetres"},
-      {"m", "meter", "meters", "metre", "metres"},
-      {"inch", "in", "inches"},
-      {"", "pixel", "pixels", "px", "voxel", "voxels"},
-  };
-  return rows;
-}
-
-/// Returns the row of a unit; null if it is unknown.
-const std::vector<std::string>* unit_row_of(const std::string& text) {
-  const std::string lower = lower_case(text);
-  for (const std::vector<std::string>& row : unit_names()) {
-    if (std::find(row.begin(), row.end(), lower) != row.end()) return &row;
-  }
-  return nullptr;
-}
 
 /// Returns a name in quotes, whole: paths of data sets differ at their ends.
 std::string whole_in_quotes(const std::string& name) {
@@ -123,13 +100,10 @@ std::vector<BlockPick> picks_of(const std::vector<VolumeAxis>& axes, const Volum
 }
 
 std::string unit_of(const std::string& text) {
-  const std::vector<std::string>* const row = unit_row_of(text);
-  return row == nullptr ? text : row->front();
+  const std::string unit = known_unit(text).value_or(text);
+  return unit == "voxel" ? "" : unit;
 }
 
-bool is_known_unit(const std::string& text) {
-  const std::vector<std::string>* const row = unit_row_of(text);
-  return row != nullptr && !row->front().empty();
-}
+bool is_known_unit(const std::string& text) { return nanometres(unit_of(text)) > 0.0; }
 
 }  // namespace wscvt

@@ -8,36 +8,12 @@
 
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/readers.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Splits a line into fields. If it has commas or semicolons, a field between them may be empty.
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  const char separator = line.find(',') != std::string_view::npos   ? ','
-                         : line.find(';') != std::string_view::npos ? ';'
-                                                                    : ' ';
-  if (separator == ' ') {
-    TextFields words(line);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      fields.push_back(word);
-    }
-    return;
-  }
-  for (bool is_last = false; !is_last;) {
-    const std::size_t end = line.find(separator);
-    is_last = end == std::string_view::npos;
-    std::string_view field = line.substr(0, end);
-    const std::size_t first = field.find_first_not_of(" \t\"");
-    const std::size_t last = field.find_last_not_of(" \t\"");
-    field = first == std::string_view::npos ? "" : field.substr(first, last + 1 - first);
-    fields.push_back(field);
-    line.remove_prefix(is_last ? line.size() : end + 1);
-  }
-}
 
 /// Returns the axis of a column, or nothing for other columns.
 std::optional<std::size_t> axis_of(std::string_view name) {
@@ -51,26 +27,16 @@ std::optional<std::size_t> axis_of(std::string_view name) {
   return {};
 }
 
-/// Returns what stands in brackets behind a name, and removes it: "x [mm]" becomes "x".
-std::string_view take_unit(std::string_view& name) {
-  const std::size_t begin = name.find_first_of("[(");
-  if (begin == std::string_view::npos || begin == 0) return {};
-  const std::string_view unit = name.substr(begin + 1, name.find_last_of("])") - begin - 1);
-  name = trimmed(name.substr(0, begin));
-  return unit;
-}
-
 /// Sets the columns of x, y and z by a heading.
-void read_heading(const std::vector<std::string_view>& fields, const ByteReader& reader,
+void read_heading(std::string_view line, const ByteReader& reader,
                   std::array<std::size_t, 3>& columns) {
+  const std::vector<TableHeading> headings = read_headings(line);
   std::array<int, 3> found{};
-  std::array<std::string_view, 3> units;
-  for (std::size_t column = 0; column < fields.size(); ++column) {
-    std::string_view name = fields[column];
-    const std::string_view unit = take_unit(name);
-    if (const std::optional<std::size_t> axis = axis_of(name)) {
+  std::vector<std::string> units;
+  for (std::size_t column = 0; column < headings.size(); ++column) {
+    if (const std::optional<std::size_t> axis = axis_of(headings[column].name)) {
       columns[*axis] = column;
-      units[*axis] = unit;
+      units.push_back(headings[column].unit);
       ++found[*axis];
     }
   }
@@ -79,9 +45,8 @@ void read_heading(const std::vector<std::string_view>& fields, const ByteReader&
         "is not a point and does not name the columns x, y and z, each once. Name them, or "
         "give a file with numbers only.");
   }
-  if (units[0] != units[1] || units[0] != units[2]) {
-    reader.fail_line("has coordinates in two units. Convert them to one.");
-  }
+  const std::string fault = common_unit(units).fault;
+  if (!fault.empty()) reader.fail_line(fault);
 }
 
 }  // namespace
@@ -96,10 +61,10 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
   while (const std::optional<std::string_view> line = reader.filled_line()) {
     if (TextFields(*line).next().front() == '#') continue;
     if (is_first && names_separator(*line)) continue;
-    split(*line, fields);
+    split_fields(*line, fields);
     if (is_first && !number_in(fields[0]) && !fields[0].empty()) {
       is_first = false;
-      read_heading(fields, reader, columns);
+      read_heading(*line, reader, columns);
       has_heading = true;
       continue;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wscvt/mesh_files/text_fields.h"
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -32,6 +33,37 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(white_space);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
+}
+
+char separator_in(std::string_view line, std::string_view separators) {
+  for (const char separator : separators) {
+    bool is_quoted = false;
+    for (const char c : line) {
+      if (c == '"') is_quoted = !is_quoted;
+      if (c == separator && !is_quoted) return c;
+    }
+  }
+  return '\0';
+}
+
+void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  const char separator = separator_in(line, ";,");
+  bool is_quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= line.size(); ++k) {
+    const char c = k < line.size() ? line[k] : '\n';
+    if (c == '"') is_quoted = !is_quoted;
+    const bool ends = separator == '\0' ? c == ' ' || (c >= '\t' && c <= '\r') : c == separator;
+    if (k < line.size() && (is_quoted || !ends)) continue;
+    const std::string_view field = line.substr(begin, k - begin);
+    const std::size_t first = std::min(field.find_first_not_of(" \t\r\""), field.size());
+    const std::size_t last = field.find_last_not_of(" \t\r\"") + 1;
+    if (separator != '\0' || first < last) {
+      fields.push_back(field.substr(first, std::max(first, last) - first));
+    }
+    begin = k + 1;
+  }
 }
 
 bool names_separator(std::string_view line) { return lower_case(line.substr(0, 4)) == "sep="; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "wscvt/base/text.h"
 
@@ -57,6 +58,14 @@ std::optional<Number> number_of_type(std::string_view field) {
 
 /// Returns a text without the white space at its ends.
 std::string_view trimmed(std::string_view text);
+
+/// Returns the first of `separators` that a line has outside quotes; '\0' if it has none of them.
+char separator_in(std::string_view line, std::string_view separators);
+
+/// Splits a line at its semicolons, or else its commas, or else its blanks and tabs; none within
+/// quotes. Fields have neither quotes nor blanks at their ends. One may be empty, but not between
+/// blanks.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
 /// Returns whether a line names the separator of those below, "sep=;", as spreadsheets write it
 /// above a heading.
