@@ -427,12 +427,7 @@ bool is_clump_file(const std::string& path) {
 }
 
 std::vector<Sphere> read_clump(const std::string& path) {
-  refuse_device(path);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.is_open()) {
-    throw Error(ErrorCode::InputOutput,
-                "\"" + path + "\" cannot be opened. Check that the file exists.");
-  }
+  std::ifstream stream = open_to_read(path);
   std::string line;
   std::size_t number = 0;
   const std::optional<SphereColumns> columns = next_columns(stream, line, number);

@@ -51,12 +51,7 @@ void add_input(const std::string& input, const IsVolume& is_volume,
 }
 
 void add_list(const std::string& list, const IsVolume& is_volume, std::vector<std::string>& files) {
-  refuse_device(list);
-  std::ifstream lines(list);
-  if (!lines.is_open()) {
-    throw Error(ErrorCode::InputOutput,
-                "The list \"" + list + "\" cannot be opened. Check that the file exists.");
-  }
+  std::ifstream lines = open_to_read(list);
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     // A list of lists could contain itself.

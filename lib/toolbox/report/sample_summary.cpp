@@ -13,6 +13,7 @@
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -222,11 +223,7 @@ bool is_spread(const SampleDistribution& one) {
 }  // namespace
 
 SampleSummary summarise_table(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.is_open()) {
-    throw Error(ErrorCode::InputOutput,
-                "\"" + path + "\" cannot be opened. Check that the file exists.");
-  }
+  std::ifstream stream = open_to_read(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (!reader.next(fields)) refuse(path, "is empty. Give a table that batch wrote.");

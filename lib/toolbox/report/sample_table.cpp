@@ -8,6 +8,7 @@
 
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
@@ -28,8 +29,8 @@ const std::string* failure_of(const std::vector<std::string>& fields) {
   return nullptr;
 }
 
-[[noreturn]] void fail(ErrorCode code, const std::string& path, const std::string& what) {
-  throw Error(code, "\"" + path + "\" " + what);
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  refuse("\"" + path + "\" " + what);
 }
 
 /// Joins the fields and the record `rest` into one record.
@@ -89,24 +90,19 @@ std::string failure_in(const std::string& record) {
 SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
     : table_(writable(path), TableUse::AppendAlone) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.is_open()) {
-    fail(ErrorCode::InputOutput, path, "cannot be opened. Check that the file exists.");
-  }
+  std::ifstream stream = open_to_read(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (reader.next(fields) && reader.text() != header) {
-    fail(ErrorCode::InvalidInput, path,
-         "is not a table with this batch's columns. Give another folder.");
+    fail(path, "is not a table with this batch's columns. Give another folder.");
   }
   for (std::size_t begin = reader.size(); reader.next(fields); begin = reader.size()) {
     const std::string expected =
         rows_.size() < grains.size() ? csv_field(grains[rows_.size()]) : "nothing";
     if (fields.front() != expected) {
-      fail(ErrorCode::InvalidInput, path,
-           "has \"" + fields.front() + "\" in row " + std::to_string(rows_.size() + 1) +
-               ", but the inputs have " + expected +
-               ". The table is from other inputs. Give those, or another folder.");
+      fail(path, "has \"" + fields.front() + "\" in row " + std::to_string(rows_.size() + 1) +
+                     ", but the inputs have " + expected +
+                     ". The table is from other inputs. Give those, or another folder.");
     }
     rows_.push_back({begin, failure_of(fields) != nullptr});
   }

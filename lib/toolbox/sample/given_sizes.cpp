@@ -2,7 +2,6 @@
 #include "toolbox/sample/given_sizes.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -88,10 +87,7 @@ double GivenSizes::diameter(double fraction) const {
 }
 
 GivenSizes read_given_sizes(const std::string& path) {
-  errno = 0;
-  refuse_device(path);
-  std::ifstream file(path);
-  if (!file) refuse_to_open(path, errno);
+  std::ifstream file = open_to_read(path);
   std::vector<double> diameters;
   std::vector<double> percentages;
   CsvReader reader(file, Separator::OfEachRecord);

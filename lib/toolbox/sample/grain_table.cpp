@@ -2,7 +2,6 @@
 #include "toolbox/sample/grain_table.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -435,10 +434,7 @@ std::string heading_of(const GrainColumn& column) {
 }
 
 GrainTable read_grain_table(const std::string& path) {
-  refuse_device(path);
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.is_open()) refuse_to_open(path, errno);
+  std::ifstream stream = open_to_read(path);
   CsvReader reader(stream, Separator::OfFirstRecord);
   TableReader table(path, reader);
   std::vector<std::string> fields;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -25,9 +26,9 @@ class FolderMissing : public MachineRefused {
 /// the machine is at fault.
 [[noreturn]] void refuse_to_open(const std::string& path, int error_number);
 
-/// Throws Error(InputOutput) for a folder or a device, such as /dev/zero, which has no end. Does
-/// nothing for a file, a pipe, or a name without a file.
-void refuse_device(const std::string& path);
+/// Opens a file or a pipe for reading. Throws as refuse_to_open, and Error(InputOutput) for a
+/// folder or a device, such as /dev/zero, which has no end.
+std::ifstream open_to_read(const std::string& path);
 
 /// Throws MachineRefused for a file that was opened but could not be read to its end.
 [[noreturn]] void refuse_to_read(const std::string& path);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/endian/conversion.hpp>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -286,10 +285,7 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   const bool is_pipe = std::filesystem::is_fifo(status);
-  refuse_device(path);
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse_to_open(path, errno);
+  std::ifstream file = open_to_read(path);
   if (is_pipe) {
     // The size of a pipe is known only at its end.
     std::stringstream content;

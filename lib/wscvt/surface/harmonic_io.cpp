@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <complex>
 #include <fstream>
@@ -30,13 +29,6 @@ constexpr const char* radial_kind = "radial";
 constexpr const char* map_kind = "map";
 constexpr std::array<const char*, 3> coordinate_names{"x", "y", "z"};
 
-std::ifstream open_for_reading(const std::string& path) {
-  errno = 0;
-  std::ifstream stream(path);
-  if (!stream) refuse_to_open(path, errno);
-  return stream;
-}
-
 [[noreturn]] void refuse_file(const std::string& path, const std::string& what) {
   refuse("The file " + path + " is not usable: " + what);
 }
@@ -54,7 +46,7 @@ struct ComplexCoefficient {
 /// Returns coefficients in the order of harmonic_index, up to the highest degree in the file.
 /// Allows commas between numbers if `with_commas`.
 std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_commas) {
-  std::ifstream stream = open_for_reading(path);
+  std::ifstream stream = open_to_read(path);
   std::vector<ComplexCoefficient> coefficients;
   std::string text;
   std::size_t line = 0;
@@ -135,7 +127,7 @@ HarmonicSurface make_surface(const std::string& path, std::vector<double> coeffi
 /// Opens and parses the file, checks its format and calls `read`.
 template <class Read>
 auto read_json(const std::string& path, const Read& read) {
-  std::ifstream stream = open_for_reading(path);
+  std::ifstream stream = open_to_read(path);
   try {
     const nlohmann::json json = nlohmann::json::parse(stream);
     if (json.at("format").get<std::string>() != format_tag) {
