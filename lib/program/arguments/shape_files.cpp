@@ -169,14 +169,9 @@ bool are_quick(const std::vector<std::string>& keys) {
       list_descriptors(describe_shape_in_detail(sphere, DetailedOptions(), one_thread));
   for (const std::string& key : keys) {
     if (find(rows, key) != nullptr) continue;
-    std::string names;
-    for (const DescriptorValue& known : rows) {
-      if (!names.empty()) names += ", ";
-      names += known.key;
-    }
-    std::string sentence = "There is no descriptor \"";
-    sentence.append(key).append("\". Choose from: ").append(names).append(".");
-    refuse(sentence);
+    std::vector<std::string> names;
+    for (const DescriptorValue& known : rows) names.emplace_back(known.key);
+    refuse("There is no descriptor \"" + key + "\". Choose from: " + listed(names) + ".");
   }
   return false;
 }

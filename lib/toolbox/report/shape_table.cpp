@@ -11,6 +11,7 @@
 
 #include "toolbox/sample/distribution.h"
 #include "toolbox/sample/grain_table.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
@@ -203,8 +204,8 @@ std::vector<std::string> voxel_lines(const GrainTable& shapes) {
   }
   across = ascending(std::move(across));
   if (across.empty()) return {};
-  std::string errors;
-  std::string missing;
+  std::vector<std::string> errors;
+  std::vector<std::string> missing;
   constexpr std::pair<const char*, const char*> told[] = {{"area", "area"},
                                                           {"sphericity_wadell", "sphericity"},
                                                           {"convexity", "convexity"},
@@ -219,21 +220,17 @@ std::vector<std::string> voxel_lines(const GrainTable& shapes) {
                                  columns.at(k, std::string("resolution.") + key + ".corrected")));
     }
     one = ascending(std::move(one));
-    if (!one.empty()) {
-      errors += (errors.empty() ? "" : ", ") + std::string(name) + " " +
-                format_error(quantile(one, 0.5)) + " %";
-    }
+    if (!one.empty()) errors.push_back(name + (" " + error_text(quantile(one, 0.5))));
     if (one.size() < across.size()) {
-      missing += (missing.empty() ? "" : ", ") + std::string(name) + " of " +
-                 of_grains(across.size() - one.size(), across.size());
+      missing.push_back(name + (" of " + of_grains(across.size() - one.size(), across.size())));
     }
   }
   std::vector<std::string> lines = {
       "Voxels across a grain: " + format_number(quantile(across, 0.1), 3) + ", " +
       format_number(quantile(across, 0.5), 3) + ", " + format_number(quantile(across, 0.9), 3) +
       " (10, 50, 90 %). Errors of the scans by the voxels, about, median: " +
-      (errors.empty() ? "none is known" : errors) + "." +
-      (missing.empty() ? "" : " Not resolved: " + missing + ".")};
+      (errors.empty() ? "none is known" : listed(errors)) + "." +
+      (missing.empty() ? "" : " Not resolved: " + listed(missing) + ".")};
   if (too_many > 0) {
     lines.push_back("The voxels of " + of_grains(too_many, across.size()) +
                     " resolve fewer nodes than were asked for: " +

@@ -119,17 +119,12 @@ std::string sizes_in(const GrainSample& sample) {
              text + " [mm]\".");
     }
   }
-  // Only the first names of a long table.
-  constexpr std::size_t most = 20;
-  std::string names;
-  for (std::size_t k = 0; k < std::min(most, table.columns.size()); ++k) {
-    names += (names.empty() ? "" : ", ") + readable(table.columns[k].name, "");
-  }
-  if (table.columns.size() > most) names += ", ...";
+  constexpr std::size_t most = 20;  // of the columns of a long table
   refuse("The table has no column \"" + column +
          "\" for the size of the grains, and no other size. Name the column of diameters "
          "\"equivalent_diameter\", or that of volumes \"volume\", and give " +
-         mention("diameter", "equivalent-diameter") + ". Its numeric columns: " + names + ".");
+         mention("diameter", "equivalent-diameter") +
+         ". Its numeric columns: " + table.column_names(most) + ".");
 }
 
 /// Returns the mass of a grain from its row and volume.

@@ -419,14 +419,16 @@ std::optional<std::size_t> GrainTable::find(std::string_view name) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
+std::string GrainTable::column_names(std::size_t most) const {
+  std::vector<std::string> names;
+  for (const GrainColumn& column : columns) names.push_back(readable(column.name, ""));
+  return listed(names, most);
+}
+
 std::size_t GrainTable::index_of(std::string_view name) const {
   if (const auto found = find(name)) return *found;
-  std::string names;
-  for (const GrainColumn& column : columns) {
-    names += (names.empty() ? "" : ", ") + readable(column.name, "");
-  }
   refuse("The table has no numeric column named \"" + readable(name, "") +
-         "\". Choose one of: " + names + ".");
+         "\". Choose one of: " + column_names() + ".");
 }
 
 std::string heading_of(const GrainColumn& column) {

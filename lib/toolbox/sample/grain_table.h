@@ -30,6 +30,9 @@ struct GrainTable {
   /// Returns the index of a column; nothing if the table has no such column.
   std::optional<std::size_t> find(std::string_view name) const;
 
+  /// Returns the names of the columns for a message, at most `most`.
+  std::string column_names(std::size_t most = 1000000) const;
+
   /// Returns the index of a column. Throws Error(InvalidInput) with the table's column names if
   /// there is no such column.
   std::size_t index_of(std::string_view name) const;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -49,12 +50,10 @@ std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
 
 std::size_t chosen_array(const std::vector<std::string>& names, const VolumeChoice& choice,
                          const std::string& path) {
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(whole_in_quotes(name));
   constexpr std::size_t most_shown = 12;
-  std::string all;
-  for (std::size_t k = 0; k < std::min(names.size(), most_shown); ++k) {
-    all += (k == 0 ? "" : ", ") + whole_in_quotes(names[k]);
-  }
-  if (names.size() > most_shown) all += ", ...";
+  const std::string all = listed(quoted, most_shown);
   if (choice.array.empty()) {
     if (names.size() == 1) return 0;
     refuse_volume(path, "has " + std::to_string(names.size()) + " arrays: " + all +

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstddef>
 #include <filesystem>
 #include <system_error>
 
@@ -59,6 +58,14 @@ std::string lower_case(std::string_view text) {
     if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   }
   return lower;
+}
+
+std::string listed(const std::vector<std::string>& words, std::size_t most) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(words.size(), most); ++k) {
+    text += (k == 0 ? "" : ", ") + words[k];
+  }
+  return words.size() > most ? text + ", ..." : text;
 }
 
 std::string ending_of(const std::string& path) {

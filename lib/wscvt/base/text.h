@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace wscvt {
 
@@ -13,6 +15,9 @@ std::string lower_case(std::string_view text);
 /// Returns the extension of a file name in lower case, with the point: ".ply". Empty if there is no
 /// extension.
 std::string ending_of(const std::string& path);
+
+/// Returns words with commas between them, and ", ..." behind `most` words.
+std::string listed(const std::vector<std::string>& words, std::size_t most = 1000000);
 
 /// Compares names by the values of the numbers in them, as strverscmp of GNU does: 9 comes before
 /// 10. Negative if `a` comes first, 0 if the names are equal. Names have no NUL.

@@ -66,6 +66,11 @@ std::string format_error(double percent) {
   return text.str();
 }
 
+std::string error_text(double percent) {
+  const std::string error = format_error(percent);
+  return error == "exact" || error == "-" ? error : error + " %";
+}
+
 std::string format_exact(double value) {
   if (!std::isfinite(value)) return "";
   std::array<char, 32> text{};

@@ -31,6 +31,9 @@ std::string format_above(double limit, double value);
 /// below 0.001. Returns "exact" below 1e-9, which is rounding, and "-" if it is not finite.
 std::string format_error(double percent);
 
+/// Returns such an error with its unit: "-0.323 %", "exact" or "-".
+std::string error_text(double percent);
+
 /// Formats a number for programs: the shortest text that reads back to the same bits. Empty if it
 /// is not finite.
 std::string format_exact(double value);

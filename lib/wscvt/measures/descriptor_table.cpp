@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -216,23 +217,22 @@ std::string resolution_sentence(const Resolution& resolution) {
                                                           {"convexity", "convexity"},
                                                           {"roundness_wadell", "roundness"},
                                                           {"sq", "Sq"}};
-  std::string errors;
-  std::string missing;
+  std::vector<std::string> errors;
+  std::vector<std::string> missing;
   for (const auto& [key, name] : told) {
     const auto row = std::find_if(resolution.rows.begin(), resolution.rows.end(),
                                   [key = key](const ResolvedValue& one) { return one.key == key; });
     if (row == resolution.rows.end()) continue;
-    std::string& list = row->is_resolved() ? errors : missing;
-    if (!list.empty()) list += ", ";
-    list += name;
-    if (!row->is_resolved()) continue;
-    const std::string error = format_error(relative_error_percent(row->value, row->corrected));
-    list += " " + error + (error == "exact" ? "" : " %");
+    if (!row->is_resolved()) {
+      missing.emplace_back(name);
+      continue;
+    }
+    errors.push_back(name + (" " + error_text(relative_error_percent(row->value, row->corrected))));
   }
   std::string sentence = "The grain is " + format_number(resolution.voxels_across, 3) +
                          " voxels across. Errors by the voxels, about: " +
-                         (errors.empty() ? "none is known" : errors) + ".";
-  if (!missing.empty()) sentence += " Not resolved: " + missing + ".";
+                         (errors.empty() ? "none is known" : listed(errors)) + ".";
+  if (!missing.empty()) sentence += " Not resolved: " + listed(missing) + ".";
   return sentence;
 }
 

@@ -194,7 +194,7 @@ std::string descriptor_html(const GrainMeasures& measures, const ReportOrigin& o
 namespace {
 
 /// Returns the numbers, which have one scale.
-std::string listed(std::initializer_list<double> numbers, double scale) {
+std::string numbers_text(std::initializer_list<double> numbers, double scale) {
   std::string text;
   for (const double number : numbers) {
     text += (text.empty() ? "" : ", ") + format_number(without_rounding(number, scale));
@@ -223,10 +223,10 @@ std::vector<std::vector<std::string>> mass_rows(const std::vector<NamedMass>& bo
     };
     rows[1].push_back(coordinate(mass.centroid.x()) + ", " + coordinate(mass.centroid.y()) + ", " +
                       coordinate(mass.centroid.z()));
-    rows[2].push_back(listed({tensor(0, 0), tensor(1, 1), tensor(2, 2)}, moments[2]));
-    rows[3].push_back(listed({tensor(0, 1), tensor(0, 2), tensor(1, 2)}, moments[2]));
-    rows[4].push_back(listed({moments[0], moments[1], moments[2]}, moments[2]));
-    rows[5].push_back(listed({axes.w(), axes.x(), axes.y(), axes.z()}, 1.0));
+    rows[2].push_back(numbers_text({tensor(0, 0), tensor(1, 1), tensor(2, 2)}, moments[2]));
+    rows[3].push_back(numbers_text({tensor(0, 1), tensor(0, 2), tensor(1, 2)}, moments[2]));
+    rows[4].push_back(numbers_text({moments[0], moments[1], moments[2]}, moments[2]));
+    rows[5].push_back(numbers_text({axes.w(), axes.x(), axes.y(), axes.z()}, 1.0));
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
@@ -20,12 +21,6 @@ constexpr std::size_t summary_topic_width = 12;
 void append_topic(std::vector<std::string>& lines, const std::string& topic,
                   const std::string& text) {
   lines.push_back(topic + std::string(summary_topic_width - topic.size(), ' ') + text);
-}
-
-/// "area -0.323 %" or "volume exact".
-std::string error_text(const std::string& label, double percent) {
-  const std::string error = format_error(percent);
-  return label + " " + error + (error == "exact" || error == "-" ? "" : " %");
 }
 
 /// The errors of the paper's descriptors, in its order.
@@ -44,19 +39,11 @@ std::vector<std::string> descriptor_errors(const RemeshResult& result) {
       if (row.key != key) continue;
       const bool is_reliable =
           row.key != "sdq_invariant" || sdq_clip_sentence("", result.scan).empty();
-      errors.push_back(is_reliable ? error_text(label, row.error_percent)
-                                   : std::string(label) + " not reliable");
+      errors.push_back(std::string(label) + " " +
+                       (is_reliable ? error_text(row.error_percent) : "not reliable"));
     }
   }
   return errors;
-}
-
-std::string listed(const std::vector<std::string>& parts, std::size_t count) {
-  std::string text;
-  for (std::size_t k = 0; k < std::min(count, parts.size()); ++k) {
-    text += (k == 0 ? "" : ", ") + parts[k];
-  }
-  return text;
 }
 
 std::string percent_of_radius(const RemeshResult& result, double length) {
@@ -66,8 +53,9 @@ std::string percent_of_radius(const RemeshResult& result, double length) {
 }  // namespace
 
 std::string verdict_line(const RemeshResult& result) {
-  const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " +
-                               listed(descriptor_errors(result), 2) + ", rms " +
+  const std::vector<std::string> errors = descriptor_errors(result);
+  const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " + errors[0] +
+                               ", " + errors[1] + ", rms " +
                                percent_of_radius(result, result.rms_distance) + " of the radius: ";
   return measured + (result.warnings.empty() ? "good" : "see above");
 }
@@ -88,7 +76,7 @@ std::vector<std::string> summary_lines(const RemeshResult& result) {
                    std::to_string(result.mesh.triangles.size()) + " faces, edge ratio " +
                    format_number(result.quality.edge_ratio.mean, 4) + ", smallest angle " +
                    format_number(result.quality.smallest_angle, 3) + " degrees");
-  append_topic(lines, "Errors", listed(descriptor_errors(result), 5));
+  append_topic(lines, "Errors", listed(descriptor_errors(result)));
   append_topic(lines, "Distance",
                "rms " + percent_of_radius(result, result.rms_distance) + ", largest " +
                    percent_of_radius(result, result.largest_distance) +

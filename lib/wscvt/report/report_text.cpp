@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
@@ -15,12 +16,6 @@ namespace {
 
 std::string counted(std::size_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-  return text;
 }
 
 constexpr std::size_t topic_width = 12;
@@ -81,7 +76,7 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                    counted(input.input_faces, "face", "faces") +
                                    "; lengths are in its unit"));
   const std::vector<std::string> done = repairs(input);
-  lines.push_back(line("Repairs", done.empty() ? "none needed" : joined(done)));
+  lines.push_back(line("Repairs", done.empty() ? "none needed" : listed(done)));
   lines.push_back(line("Repaired", counted(input.vertices, "vertex", "vertices") + ", " +
                                        counted(input.faces, "face", "faces") + ", closed, genus " +
                                        std::to_string(input.genus) + ", equivalent radius " +
