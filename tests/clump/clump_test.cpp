@@ -261,6 +261,13 @@ TEST(Clump, MovesTurnsAndGrowsWithTheScan) {
   }
   EXPECT_NEAR(moved.rms_distance, 3.0 * clump.rms_distance, 1e-6);
   EXPECT_NEAR(moved.contact.mean, clump.contact.mean, 1e-3);
+  // The union has a mesh of its own in each pose.
+  const auto turned = [&](const SphereMass& before, const SphereMass& after) {
+    const Eigen::Matrix3d axes = turn * before.mass.principal_axes.toRotationMatrix();
+    return (axes - after.mass.principal_axes.toRotationMatrix()).norm();
+  };
+  EXPECT_LT(turned(clump.summed, moved.summed), 1e-4);
+  EXPECT_LT(turned(clump.united, moved.united), 0.02);
 }
 
 TEST(Clump, IsTheSameOnAnyNumberOfThreads) {

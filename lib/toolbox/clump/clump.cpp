@@ -13,6 +13,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/remesh/repaired_scan.h"
@@ -46,11 +47,22 @@ MassProperties summed_mass(const std::vector<Sphere>& spheres) {
                                          Eigen::Matrix3d::Identity() -
                                      from * from.transpose());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mass.inertia_tensor);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(mass.inertia_tensor,
+                                                              Eigen::EigenvaluesOnly);
   mass.principal_moments = solver.eigenvalues();
-  Eigen::Matrix3d axes = solver.eigenvectors();
-  if (axes.determinant() < 0.0) axes.col(2) = -axes.col(2);
-  mass.principal_axes = Eigen::Quaterniond(axes);
+  mass.principal_axes =
+      principal_axes(mass.inertia_tensor, [&](const Eigen::Matrix<double, 3, 2>& axes) {
+        AxisMoments moments;
+        moments.volume = mass.volume;
+        for (const Sphere& sphere : spheres) {
+          const double square = sphere.radius * sphere.radius;
+          const double volume = 4.0 / 3.0 * pi * square * sphere.radius;
+          const Eigen::Array2d from = axes.transpose() * (sphere.centre - mass.centroid);
+          // A ball's second moment about its centre is V r^2 / 5.
+          moments.third += (volume * from * (from * from + 0.6 * square)).matrix();
+        }
+        return moments;
+      });
   return mass;
 }
 

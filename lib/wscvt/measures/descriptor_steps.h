@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -25,6 +26,24 @@ namespace wscvt {
 Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centroid,
                                   const Eigen::Matrix3d& inertia_tensor,
                                   const Execution& execution);
+
+/// A body's volume, and the integral of x^3 dV along each of two axes from its centroid.
+struct AxisMoments {
+  double volume = 0.0;
+  Eigen::Vector2d third = Eigen::Vector2d::Zero();
+
+  AxisMoments& operator+=(const AxisMoments& other) {
+    volume += other.volume;
+    third += other.third;
+    return *this;
+  }
+};
+
+/// The function above for a body without a mesh: `moments_along` returns its moments along axes,
+/// which are the columns.
+Eigen::Quaterniond principal_axes(
+    const Eigen::Matrix3d& inertia_tensor,
+    const std::function<AxisMoments(const Eigen::Matrix<double, 3, 2>& axes)>& moments_along);
 
 /// Computes the edges of the smallest-volume oriented box about the points. Minimizes, over the
 /// directions of one edge (smallest_over_directions), the extent along it times the area of the

@@ -214,18 +214,6 @@ constexpr std::size_t axes_block = 8192;
 /// smaller.
 constexpr double smallest_skewness = 1e-9;
 
-/// The volume, and the third moments along two axes, so that the mesh is read once.
-struct AxisMoments {
-  double volume = 0.0;
-  Eigen::Vector2d third = Eigen::Vector2d::Zero();
-
-  AxisMoments& operator+=(const AxisMoments& other) {
-    volume += other.volume;
-    third += other.third;
-    return *this;
-  }
-};
-
 /// Sums over the tetrahedra of the faces and the centroid. A coordinate is linear in each
 /// tetrahedron, with the values 0, a, b and c at its corners. The mean of its cube is then 1/20 of
 /// the sum of all products of three of the values, aaa + aab + ... + ccc.
@@ -268,10 +256,17 @@ Vector3 with_sign(const Vector3& axis, double skewness) {
 Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centroid,
                                   const Eigen::Matrix3d& inertia_tensor,
                                   const Execution& execution) {
+  return principal_axes(inertia_tensor, [&](const Eigen::Matrix<double, 3, 2>& axes) {
+    return moments_along(axes, mesh, centroid, execution);
+  });
+}
+
+Eigen::Quaterniond principal_axes(
+    const Eigen::Matrix3d& inertia_tensor,
+    const std::function<AxisMoments(const Eigen::Matrix<double, 3, 2>& axes)>& moments_along) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia_tensor);
   const Vector3& moments_of_inertia = solver.eigenvalues();
-  const AxisMoments moments =
-      moments_along(solver.eigenvectors().leftCols<2>(), mesh, centroid, execution);
+  const AxisMoments moments = moments_along(solver.eigenvectors().leftCols<2>());
   Eigen::Matrix3d axes;
   for (int k = 0; k < 2; ++k) {
     // The second moment along an axis follows from the moments of inertia: integral of x_k^2 dV =
