@@ -59,6 +59,13 @@ TEST(FirstContact, ErrorIsMeanAndScatter) {
   const ContactError error = contact_error({1.1, 2.3, 2.9}, {1.0, 2.0, 3.0});
   EXPECT_NEAR(error.mean, 10.0, 1e-9);
   EXPECT_NEAR(error.scatter, 100.0 * std::sqrt(0.08 / 3.0), 1e-9);
+  // Pairs of which one passes by do not count.
+  const ContactError others =
+      contact_error({1.1, -1e30, 2.3, 2.9, -1e30}, {1.0, 2.0, 2.0, 3.0, -1e30});
+  EXPECT_NEAR(others.mean, error.mean, 1e-9);
+  const ContactError scans = contact_error({1.1, 5.0, 2.3, 2.9}, {1.0, -1e30, 2.0, 3.0});
+  EXPECT_NEAR(scans.mean, error.mean, 1e-9);
+  EXPECT_NEAR(scans.scatter, error.scatter, 1e-9);
 }
 
 }  // namespace
@@ -121,6 +128,52 @@ TEST(FirstTouch, OfBallsLeansAsTheirCentresDo) {
     if (touch.normal.z() < 0.99) ++leaning;
   }
   EXPECT_GT(leaning, 300U);
+}
+
+/// The centre of a turned ball off the origin tells its pose.
+TEST(FirstTouch, IsOfEachPoseWithEachOther) {
+  const double radius = 0.8;
+  const Execution one(1);
+  const ContactHeights centred({{Vector3::Zero(), radius}}, 1.5, one);
+  const ContactHeights off({{Vector3(0.6, 0.0, 0.0), radius}}, 1.5, one);
+  const std::vector<FirstTouch> below = off.touches(centred, one);
+  const std::vector<FirstTouch> above = centred.touches(off, one);
+  ASSERT_EQ(below.size(), above.size());
+  std::size_t equal = 0;
+  for (std::size_t pair = 0; pair < below.size(); ++pair) {
+    ASSERT_TRUE(below[pair].touches && above[pair].touches);
+    const Vector3 lower = 2.0 * below[pair].place - Vector3(0.0, 0.0, below[pair].distance);
+    const Vector3 upper = 2.0 * above[pair].place - Vector3(0.0, 0.0, above[pair].distance);
+    EXPECT_NEAR(lower.norm(), 0.6, 0.04);  // a pixel is 0.012
+    EXPECT_NEAR(upper.norm(), 0.6, 0.04);
+    if ((lower - upper).norm() < 0.05) ++equal;
+  }
+  // A few of the random directions are as near to each other; a pose with itself has 32 pairs.
+  EXPECT_LT(equal, 10U);
+}
+
+TEST(FirstTouch, ErrorsAreQuantilesOverThePairsThatTouch) {
+  std::vector<FirstTouch> scan(13);
+  std::vector<FirstTouch> other(13);
+  for (std::size_t k = 0; k < 13; ++k) {
+    const double step = static_cast<double>((7 * k) % 11);  // 0 to 10, in another order
+    scan[k] = {2.0, Vector3(1.0, 2.0, 3.0), Vector3::UnitZ(), true};
+    const double angle = 2.0 * step * pi / 180.0;
+    other[k] = {2.0 + (k % 2 == 0 ? 0.01 : -0.01) * step, Vector3(1.0, 2.0 - 0.03 * step, 3.0),
+                Vector3(std::sin(angle), 0.0, std::cos(angle)), true};
+  }
+  // Pairs of which one passes by do not count.
+  scan[11].touches = false;
+  other[12].touches = false;
+  other[11].distance = scan[12].distance = 50.0;
+  const TouchErrors errors = touch_errors(other, scan);
+  EXPECT_NEAR(errors.gap.median, 5.0, 1e-9);
+  // 0.9 times 11, less half of a value (Hazen).
+  EXPECT_NEAR(errors.gap.percent_90, 9.4, 1e-9);
+  EXPECT_NEAR(errors.place.median, 15.0, 1e-9);
+  EXPECT_NEAR(errors.place.percent_90, 28.2, 1e-9);
+  EXPECT_NEAR(errors.normal.median, 10.0, 1e-6);
+  EXPECT_NEAR(errors.normal.percent_90, 18.8, 1e-6);
 }
 
 /// Bodies that are smaller by 2 % touch at 2 % less of the distance, which lies between twice the

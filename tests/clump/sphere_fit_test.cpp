@@ -34,7 +34,8 @@ TEST(PointBlocks, FindsTheNearestPointOfMany) {
       EXPECT_LE((blocks.points()[i] - block.centre).norm(), block.radius);
     }
   }
-  for (const Vector3& to : random_points(200, 1.5, 6)) {
+  // Most lie in the balls of several blocks.
+  for (const Vector3& to : random_points(2000, 1.1, 6)) {
     double least = std::numeric_limits<double>::infinity();
     for (const Vector3& p : points) least = std::min(least, (p - to).norm());
     EXPECT_EQ((blocks.points()[blocks.nearest(to)] - to).norm(), least);
@@ -90,16 +91,30 @@ TEST(SphereFit, KeepsItsEnergyThroughAllThatChangesSpheres) {
     // Sums of 2,400 in another order.
     EXPECT_NEAR(fit.energy(), energy, 1e-12 * (1.0 + energy));
   };
-  std::vector<Sphere> added;
-  for (const Vector3& centre : random_points(12, 0.6, 3)) {
-    const Sphere sphere = {centre, 0.3 + 0.2 * std::abs(centre.x())};
-    std::vector<Sphere> more = fit.spheres();
-    more.push_back(sphere);
-    if (!fit.spheres().empty()) {
-      EXPECT_NEAR(fit.energy_with(sphere), energy_of(samples, more, weight), 1e-12);
+  // Without the least needed one it rises least.
+  const auto check_least_needed = [&] {
+    std::vector<double> without;
+    for (std::size_t k = 0; k < fit.spheres().size(); ++k) {
+      std::vector<Sphere> others = fit.spheres();
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+      without.push_back(energy_of(samples, others, weight));
     }
-    fit.add(sphere);
+    const auto least = std::min_element(without.begin(), without.end());
+    EXPECT_EQ(fit.least_needed(), static_cast<std::size_t>(least - without.begin()));
+  };
+  for (const Vector3& centre : random_points(12, 0.6, 3)) {
+    // Small and large ones, also outside.
+    for (const Vector3& other : random_points(3, 1.4, 7)) {
+      const Sphere sphere = {other + 0.3 * centre, 0.1 + 0.6 * std::abs(centre.y())};
+      std::vector<Sphere> more = fit.spheres();
+      more.push_back(sphere);
+      if (!fit.spheres().empty()) {
+        EXPECT_NEAR(fit.energy_with(sphere), energy_of(samples, more, weight), 1e-12);
+      }
+    }
+    fit.add({centre, 0.3 + 0.2 * std::abs(centre.x())});
     check();
+    if (fit.spheres().size() > 1) check_least_needed();
     for (int k = 0; k < 3; ++k) {
       const double before = fit.energy();
       fit.sweep();
@@ -113,31 +128,29 @@ TEST(SphereFit, KeepsItsEnergyThroughAllThatChangesSpheres) {
   for (const std::size_t k : {0U, 5U, 9U}) {
     fit.remove(k);
     check();
-    fit.sweep();
-    check();
+    for (int sweep = 0; sweep < 3; ++sweep) {
+      fit.sweep();
+      check();
+    }
+    check_least_needed();
   }
-  // Without the least needed one it rises least.
-  std::vector<double> without;
-  for (std::size_t k = 0; k < fit.spheres().size(); ++k) {
-    std::vector<Sphere> others = fit.spheres();
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    without.push_back(energy_of(samples, others, weight));
-  }
-  EXPECT_EQ(
-      fit.least_needed(),
-      static_cast<std::size_t>(std::min_element(without.begin(), without.end()) - without.begin()));
 }
 
 TEST(SphereFit, InsideRadiiAreDepths) {
   const Samples samples;
   const PointBlocks depths(samples.surface);
-  SphereFit fit(samples.surface, samples.inside, samples.outside, {0.05, 2.0, &depths});
-  for (const Vector3& centre : random_points(5, 0.4, 4)) {
-    fit.add({centre, (depths.points()[depths.nearest(centre)] - centre).norm()});
-    fit.sweep();
-    fit.sweep();
+  constexpr double smallest = 0.4;
+  SphereFit fit(samples.surface, samples.inside, samples.outside, {smallest, 2.0, &depths});
+  for (const Vector3& centre : random_points(20, 0.5, 4)) {
+    const double depth = (depths.points()[depths.nearest(centre)] - centre).norm();
+    if (depth < smallest) continue;
+    fit.add({centre, depth});
+    for (int sweep = 0; sweep < 5; ++sweep) fit.sweep();
   }
+  EXPECT_GT(fit.spheres().size(), 8U);
   for (const Sphere& sphere : fit.spheres()) {
+    EXPECT_GE(sphere.radius, smallest);
+    EXPECT_LT(sphere.centre.norm(), 0.8) << "inside";
     const Vector3& nearest = depths.points()[depths.nearest(sphere.centre)];
     EXPECT_NEAR((nearest - sphere.centre).norm(), sphere.radius, 1e-12);
   }
