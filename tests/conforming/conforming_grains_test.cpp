@@ -9,11 +9,13 @@
 #include <map>
 #include <random>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/flat_json.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
@@ -176,16 +178,16 @@ TEST(ConformingGrains, TwoBallsShareADisc) {
   EXPECT_LT(result.edge_variation, 0.15);  // random triangulations: .3
 }
 
+/// Boxes of 30 voxels: grain 0 on the left, 1 and 2 on the right behind each other.
+GrainVoxels three_boxes() {
+  return voxels_of(50, [](const Vector3& p) {
+    if (!is_in_box(p, Vector3::Constant(25.0), 15.0)) return -1;
+    return p.x() < 25.0 ? 0 : p.y() < 25.0 ? 1 : 2;
+  });
+}
+
 TEST(ConformingGrains, ThreeBoxesMeetInAStraightLine) {
-  const ConformingGrains result =
-      conformed(voxels_of(50,
-                          [](const Vector3& p) {
-                            if (!is_in_box(p, Vector3::Constant(25.0), 15.0)) {
-                              return -1;
-                            }
-                            return p.x() < 25.0 ? 0 : p.y() < 25.0 ? 1 : 2;
-                          }),
-                3);
+  const ConformingGrains result = conformed(three_boxes(), 3);
   expect_conforming(result);
   EXPECT_EQ(result.intersections, 0U);
   ASSERT_EQ(result.walls.size(), 3U);
@@ -389,6 +391,157 @@ TEST(ConformingGrains, PiecesAreLeftOutAndPoresFilled) {
   EXPECT_EQ(result.grains[0].pieces, 2U);
   EXPECT_EQ(result.grains[0].left_out, 64);
   EXPECT_GT(result.grains[0].pore_voxels, 80);  // a ball of radius 3 has 113
+}
+
+TEST(ConformingGrains, StandInTheLatticeAlsoIfItIsLeftHandedAndItsVoxelsAreLong) {
+  VolumeGeometry geometry;
+  geometry.axes = test::random_rotation(6) * Vector3(-0.5, 0.8, 0.6).asDiagonal();
+  geometry.corner = Vector3(30.0, -4.0, 7.0);
+  ConformingOptions options;
+  options.edge_length = 2.4;
+  const ConformingGrains result = conform_grains(three_boxes(), 3, geometry, options, Execution(1));
+  expect_conforming(result);
+  EXPECT_NEAR(result.mean_edge, 2.4, 0.15);
+  EXPECT_NEAR(result.grains[0].voxel_volume, 15.0 * 30.0 * 30.0 * 0.24, 1e-9);
+  ASSERT_EQ(result.walls.size(), 3U);
+  // Middles and area vectors of the walls, in voxels. The layer of background is one voxel wide.
+  const std::array<std::array<Vector3, 2>, 3> by_hand = {
+      {{Vector3(26.0, 18.5, 26.0), Vector3(15.0 * 30.0, 0.0, 0.0)},
+       {Vector3(26.0, 33.5, 26.0), Vector3(15.0 * 30.0, 0.0, 0.0)},
+       {Vector3(33.5, 26.0, 26.0), Vector3(0.0, 15.0 * 30.0, 0.0)}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CommonWall& wall = result.walls[k];
+    // Edges of the boxes are rounded by about a voxel.
+    EXPECT_LT((wall.centre - geometry.point(by_hand[k][0])).norm(), 0.3) << k;
+    // An area vector turns as the cofactors do; of the left-handed lattice it is turned round.
+    const Vector3 area =
+        -geometry.axes.determinant() * geometry.axes.inverse().transpose() * by_hand[k][1];
+    EXPECT_GT(wall.normal.dot(area.normalized()), 0.99) << k;
+    EXPECT_NEAR(wall.area / area.norm(), 1.0, 0.06) << k;
+  }
+  // The longest edge of a voxel counts.
+  options.edge_length = 0.7;
+  EXPECT_ERROR(conform_grains(three_boxes(), 3, geometry, options, Execution(1)), InvalidInput);
+}
+
+TEST(ConformingGrains, AreMeasuredAsByHand) {
+  const ConformingGrains result = conformed(random_cells(4, 40, 9, true), 9);
+  const auto length = [&](std::int32_t a, std::int32_t b) {
+    return (result.points[static_cast<std::size_t>(a)] - result.points[static_cast<std::size_t>(b)])
+        .norm();
+  };
+  double sum = 0.0;
+  double squares = 0.0;
+  double shortest = 1e9;
+  double smallest = 180.0;
+  std::set<std::int32_t> flattest;
+  std::vector<std::set<std::int32_t>> neighbours(9);
+  for (const WallTriangle& t : result.triangles) {
+    const auto& [a, b, c] = t.corners;
+    const std::array<double, 3> sides = {length(b, c), length(c, a), length(a, b)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double own = sides[k];
+      const double next = sides[(k + 1) % 3];
+      const double last = sides[(k + 2) % 3];
+      sum += own;
+      squares += own * own;
+      shortest = std::min(shortest, own);
+      const double angle =
+          std::acos((next * next + last * last - own * own) / (2.0 * next * last)) * 180.0 / M_PI;
+      if (angle >= smallest) continue;
+      smallest = angle;
+      flattest = {t.inner, t.outer};
+    }
+    if (t.outer < 0) continue;
+    neighbours[static_cast<std::size_t>(t.inner)].insert(t.outer);
+    neighbours[static_cast<std::size_t>(t.outer)].insert(t.inner);
+  }
+  const double count = 3.0 * static_cast<double>(result.triangles.size());
+  EXPECT_NEAR(result.mean_edge, sum / count, 1e-12);
+  EXPECT_NEAR(result.edge_variation, std::sqrt(squares * count / (sum * sum) - 1.0), 1e-9);
+  EXPECT_DOUBLE_EQ(result.shortest_edge, shortest);
+  EXPECT_NEAR(result.smallest_angle, smallest, 1e-9);
+  EXPECT_EQ(flattest.count(result.flattest), 1U);
+  for (std::size_t g = 0; g < 9; ++g) EXPECT_EQ(result.grains[g].contacts, neighbours[g].size());
+}
+
+TEST(ConformingGrains, CountEachVoxelOnce) {
+  const GrainVoxels voxels = random_cells(2, 48, 12, false, Between::NoisyGaps);
+  const ConformingGrains result = conformed(voxels, 12);
+  std::int64_t gained = 0;
+  for (std::size_t g = 0; g < 12; ++g) {
+    const ConformingGrain& grain = result.grains[g];
+    const auto own = std::count(voxels.grain.begin(), voxels.grain.end(), static_cast<int>(g));
+    EXPECT_EQ(grain.voxels, own - grain.left_out + grain.pore_voxels + grain.gained) << g;
+    EXPECT_DOUBLE_EQ(grain.voxel_volume, static_cast<double>(grain.voxels));
+    EXPECT_NE(grain.gained, 0) << g;
+    gained += grain.gained;
+  }
+  EXPECT_EQ(result.gained_voxels, gained);
+}
+
+/// The numbers of an array of a .vtu, by its name.
+std::vector<Label> vtu_numbers(const std::string& vtu, const std::string& name) {
+  const std::size_t begin = vtu.find('>', vtu.find("Name=\"" + name + "\"")) + 1;
+  std::istringstream text(vtu.substr(begin, vtu.find('<', begin) - begin));
+  std::vector<Label> numbers;
+  for (std::int64_t number = 0; text >> number;) numbers.push_back(static_cast<Label>(number));
+  return numbers;
+}
+
+TEST(ConformingGrains, TablesHaveTheLabelsAndNumbersOfWallsAndGrains) {
+  ConformingGrains result = conformed(three_boxes(), 3);
+  const std::vector<Label> labels = {4, 7, 9};
+  for (std::size_t g = 0; g < 3; ++g) {
+    // Numbers that no other column has.
+    result.grains[g].gained = static_cast<int>(g) - 1;
+    result.grains[g].voxel_volume = 1.5 + static_cast<double>(g);
+    result.grains[g].pieces = 10 + g;
+    result.grains[g].left_out = 20 + static_cast<int>(g);
+  }
+  const auto number = [](const std::string& text) { return std::stod(text); };
+  const auto walls = test::csv_records(walls_csv(result, labels));
+  ASSERT_EQ(walls.size(), 4U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CommonWall& wall = result.walls[k];
+    std::map<std::string, std::string> row;
+    for (std::size_t c = 0; c < walls[0].size(); ++c) row[walls[0][c]] = walls[k + 1].at(c);
+    EXPECT_EQ(row["first"], std::to_string(labels[static_cast<std::size_t>(wall.first)]));
+    EXPECT_EQ(row["second"], std::to_string(labels[static_cast<std::size_t>(wall.second)]));
+    EXPECT_EQ(number(row["area"]), wall.area);
+    EXPECT_EQ(Vector3(number(row["x"]), number(row["y"]), number(row["z"])), wall.centre);
+    EXPECT_EQ(Vector3(number(row["nx"]), number(row["ny"]), number(row["nz"])), wall.normal);
+    EXPECT_EQ(number(row["triangles"]), static_cast<double>(wall.triangles));
+  }
+  const auto grains = test::csv_records(conforming_csv(result, labels, {"a", "b", "c"}));
+  ASSERT_EQ(grains.size(), 4U);
+  for (std::size_t g = 0; g < 3; ++g) {
+    ConformingGrain& grain = result.grains[g];
+    std::map<std::string, std::string> row;
+    for (std::size_t c = 0; c < grains[0].size(); ++c) row[grains[0][c]] = grains[g + 1].at(c);
+    EXPECT_EQ(row["grain"], std::to_string(labels[g]));
+    EXPECT_EQ(number(row["nodes"]), static_cast<double>(grain.nodes));
+    EXPECT_EQ(number(row["triangles"]), static_cast<double>(grain.triangles));
+    EXPECT_EQ(number(row["voxels"]), static_cast<double>(grain.voxels));
+    EXPECT_EQ(number(row["gained"]), static_cast<double>(g) - 1.0);
+    EXPECT_EQ(number(row["voxel_volume"]), grain.voxel_volume);
+    EXPECT_EQ(number(row["volume"]), grain.volume);
+    EXPECT_EQ(row["contacts"], "2");
+    EXPECT_EQ(row["pieces"], std::to_string(10 + g));
+    EXPECT_EQ(row["left_out"], std::to_string(20 + g));
+    EXPECT_EQ(row["file"], std::string(1, "abc"[g]));
+  }
+  const std::string vtu = walls_vtu(result, labels);
+  const std::vector<Label> inner = vtu_numbers(vtu, "inner");
+  const std::vector<Label> outer = vtu_numbers(vtu, "outer");
+  ASSERT_EQ(inner.size(), result.triangles.size());
+  ASSERT_EQ(outer.size(), result.triangles.size());
+  for (std::size_t t = 0; t < inner.size(); ++t) {
+    const WallTriangle& triangle = result.triangles[t];
+    EXPECT_EQ(inner[t], labels[static_cast<std::size_t>(triangle.inner)]);
+    EXPECT_EQ(outer[t], triangle.outer < 0 ? static_cast<Label>(-1)
+                                           : labels[static_cast<std::size_t>(triangle.outer)]);
+  }
 }
 
 TEST(ConformingGrains, SameBytesAtAnyNumberOfThreads) {
