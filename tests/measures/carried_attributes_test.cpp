@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
@@ -211,6 +213,42 @@ TEST(CarriedAttributes, OfPointsAreThoseOfTheNearest) {
   for (Vector3& p : mesh.points) p += Vector3(1e-4, -2e-4, 1e-4);
   EXPECT_EQ(carried_attributes(scan, own, mesh, Execution(3)).of_vertices[1].values,
             own.of_vertices[1].values);
+}
+
+TEST(CarriedAttributes, OfFacesAreThoseOfTheFaceNearestToTheCentroid) {
+  const IndexedMesh scan = test::lumpy(3);
+  MeshAttributes own;
+  own.of_faces = {{"number", ScalarType::Int32, {}}};
+  for (std::size_t f = 0; f < scan.triangles.size(); ++f) {
+    own.of_faces[0].values.push_back(static_cast<double>(f));
+  }
+  // Its faces have many of the scan's about their centroids.
+  const IndexedMesh mesh = test::transformed(test::lumpy(1), test::random_rotation(3));
+  const std::vector<double> carried = carried_attributes(scan, own, mesh).of_faces[0].values;
+  ASSERT_EQ(carried.size(), mesh.triangles.size());
+  for (std::size_t f = 0; f < carried.size(); ++f) {
+    const auto& [a, b, c] = mesh.triangles[f];
+    const Vector3 middle = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0;
+    const auto distance = [&](const Triangle& t) {
+      const Vector3 &x = scan.points[t[0]], &y = scan.points[t[1]], &z = scan.points[t[2]];
+      const Vector3 w = nearest_weights(x, y, z, middle);
+      return (w[0] * x + w[1] * y + w[2] * z - middle).norm();
+    };
+    double least = 1e9;
+    for (const Triangle& t : scan.triangles) least = std::min(least, distance(t));
+    // Faces that share the nearest point are equally near.
+    EXPECT_NEAR(distance(scan.triangles[static_cast<std::size_t>(carried[f])]), least, 1e-12) << f;
+  }
+}
+
+TEST(CarriedAttributes, ACornerWithoutAValueDoesNotMatterWhereItHasNoWeight) {
+  const IndexedMesh scan = test::box(1, 2, 3);
+  MeshAttributes own = attributes_of(scan);
+  own.of_vertices[1].values[0] = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> carried = carried_attributes(scan, own, scan).of_vertices[1].values;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    EXPECT_EQ(std::isnan(carried[i]), i == 0) << i;
+  }
 }
 
 TEST(CarriedAttributes, OfNoneAreNoneAndWrongNumbersAreRefused) {

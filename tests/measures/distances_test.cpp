@@ -178,6 +178,14 @@ TEST(Distances, AreTakenAtTheVerticesToo) {
   const MeshDistances d =
       measure_distances(spike, test::box(1, 1, 1), DistanceOptions{1}, Execution(1));
   EXPECT_NEAR(d.to_reference.maximum, 3.0 * std::sqrt(3.0), 1e-14);
+  // A vertex without a face is no part of the surface.
+  IndexedMesh stray = spike;
+  stray.points.emplace_back(90.0, 0.0, 0.0);
+  for (const MeshDistances& one :
+       {measure_distances(stray, test::box(1, 1, 1), DistanceOptions{1}, Execution(1)),
+        sampled_distances(stray, test::box(1, 1, 1), 1, Execution(1))}) {
+    EXPECT_NEAR(one.largest, 3.0 * std::sqrt(3.0), 1e-14);
+  }
 }
 
 /// The largest distance from points of each face, `steps` on an edge.
@@ -331,6 +339,19 @@ TEST(SampledDistances, FindTheTipOfAScan) {
   const MeshDistances there = sampled_distances(test::sphere(4), tip, 50, Execution(2));
   EXPECT_NEAR(there.largest, 0.25, 1e-12);
   EXPECT_NEAR(sampled_distances(tip, test::sphere(4), 50, Execution(1)).largest, 0.25, 1e-12);
+}
+
+/// The neighbours of a face without area cover it, also where it sticks out.
+TEST(SampledDistances, PassOverFacesWithoutArea) {
+  IndexedMesh scan = test::sphere(5);
+  IndexedMesh mesh = test::moved(test::sphere(2), 1.02, Vector3::Zero());
+  mesh.points[3] *= 1.1;
+  const double farthest = sampled_distances(mesh, scan, 300, Execution(1)).to_reference.maximum;
+  EXPECT_NEAR(farthest, 0.122, 1e-3);
+  const auto tip = static_cast<std::int32_t>(scan.points.size());
+  scan.points.push_back(mesh.points[3]);
+  for (std::int32_t corner = 0; corner < 40; ++corner) scan.triangles.push_back({corner, tip, tip});
+  EXPECT_EQ(sampled_distances(mesh, scan, 300, Execution(1)).to_reference.maximum, farthest);
 }
 
 /// A few large faces beside many small ones, which a choice by number would leave out.

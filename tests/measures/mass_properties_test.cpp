@@ -116,6 +116,17 @@ TEST(MassProperties, AxesPointToWhereTheBodyReachesFarther) {
   }
 }
 
+TEST(MassProperties, AxesOfASymmetricBodyHaveTheirLargestComponentPositive) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const MassProperties mass =
+        mass_of(test::transformed(test::box(3, 2, 1), test::random_rotation(seed), {4, 5, 6}));
+    for (const Vector3& axis : {Vector3(Vector3::UnitX()), Vector3(Vector3::UnitY())}) {
+      const Vector3 turned = mass.principal_axes * axis;
+      EXPECT_EQ(turned.maxCoeff(), turned.cwiseAbs().maxCoeff()) << seed;
+    }
+  }
+}
+
 /// Integral of (axis . (x - centroid))^3 over a body, of the tetrahedra that its faces span with
 /// the centroid, by a rule of five points that is exact to the third degree (Keast 1986,
 /// "Moderate-degree tetrahedral quadrature formulas").

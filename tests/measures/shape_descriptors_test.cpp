@@ -264,6 +264,9 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
   const ShapeDescriptors sphere = describe_shape(test::sphere(3), Execution(1));
   EXPECT_EQ(sphere.sdq_clipped_fraction, 0.0);
   EXPECT_EQ(sphere.sdq_half_clip, sphere.sdq);
+  // The sides of a bar pass the centroid at .01, their faces' centroids are 1/3 away from there.
+  const ShapeDescriptors bar = describe_shape(test::box(0.02, 0.02, 2.0), Execution(1));
+  EXPECT_GT(bar.sdq_clipped_fraction, 0.99);
   // The smallest cosine of a needle 30 : 1 is 60 / 901, above the clip.
   const IndexedMesh needle = test::transformed(test::sphere(5), Vector3(1, 1, 30).asDiagonal());
   EXPECT_EQ(describe_shape(needle, Execution(1)).sdq_clipped_fraction, 0.0);
