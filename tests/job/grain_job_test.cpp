@@ -139,6 +139,16 @@ TEST_F(Job, GoesOnWhereItWasCut) {
     EXPECT_EQ(content("out" + name), content("whole" + name)) << name;
   }
   EXPECT_FALSE(fs::exists(folder_ / "out/grain19.txt.part"));
+  // Killed between the rows of a grain: the first table is written last.
+  const fs::path last = folder_ / "out/grains.csv";
+  fs::resize_file(last, fs::file_size(last) - 5);
+  made = 0;
+  Points third(20);
+  run_job(begun, third, {1});
+  EXPECT_EQ(made, 1);
+  for (const std::string name : {"/grains.csv", "/other.csv"}) {
+    EXPECT_EQ(content("out" + name), content("whole" + name)) << name;
+  }
 }
 
 TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
@@ -279,6 +289,16 @@ TEST_F(Job, WorksAgainOnScansThatAreNewerThanTheirResults) {
     EXPECT_EQ(end.failed, scan == 2 ? 0U : 1U);
     if (seconds > 0) later(scan, -100);
   }
+  // A folder of slices is as new as its newest slice.
+  const fs::path slices = folder_ / "scans" / "3";
+  fs::remove(slices);
+  fs::create_directories(slices);
+  write_file((slices / "1.tif").string(), "a slice");
+  fs::last_write_time(slices / "1.tif", fs::file_time_type::clock::now() + std::chrono::seconds(3));
+  later(3, -100);
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 7);
 }
 
 TEST_F(Job, TakesNoRowsOfPartsThatAreOlderThanTheirScans) {
