@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -15,6 +16,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_steps.h"
+#include "wscvt/measures/direction_search.h"
 
 namespace wscvt {
 namespace {
@@ -91,6 +93,75 @@ TEST(FormAxes, NoBoxOfManyThousandIsSmallerByOnePerMille) {
       least = std::min(least, tried);
     }
     EXPECT_LT(volume, 1.001 * least);
+  }
+}
+
+double box_volume(const std::vector<Vector3>& points, const Eigen::Matrix3d& turn) {
+  Vector3 low = turn * points[0];
+  Vector3 high = low;
+  for (const Vector3& p : points) {
+    const Vector3 turned = turn * p;
+    low = low.cwiseMin(turned);
+    high = high.cwiseMax(turned);
+  }
+  return (high - low).prod();
+}
+
+/// The smallest box that random turns find, of which the best are turned on by smaller steps.
+double box_by_chance(const std::vector<Vector3>& points) {
+  std::vector<std::pair<double, std::uint64_t>> starts;
+  for (std::uint64_t k = 0; k < 600; ++k) {
+    starts.emplace_back(box_volume(points, test::random_rotation(k)), k);
+  }
+  std::sort(starts.begin(), starts.end());
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  double least = starts.front().first;
+  for (std::size_t s = 0; s < 20; ++s) {
+    Eigen::Matrix3d turn = test::random_rotation(starts[s].second);
+    double volume = starts[s].first;
+    for (double step = 0.2; step > 1e-3; step *= 0.8) {
+      for (int attempt = 0; attempt < 12; ++attempt) {
+        const Vector3 axis = Vector3(normal(engine), normal(engine), normal(engine)).normalized();
+        const Eigen::Matrix3d other = Eigen::AngleAxisd(step, axis).toRotationMatrix() * turn;
+        const double tried = box_volume(points, other);
+        if (!(tried < volume)) continue;
+        volume = tried;
+        turn = other;
+      }
+    }
+    least = std::min(least, volume);
+  }
+  return least;
+}
+
+// The boxes about such points have many narrow valleys.
+TEST(FormAxes, OfPointsOnAnEllipsoidAreOnePerMilleOfTheSmallestBox) {
+  for (const std::uint64_t seed : {51, 52, 53}) {
+    std::mt19937_64 engine(test::announced(seed));
+    std::normal_distribution<double> normal;
+    std::vector<Vector3> points;
+    for (int k = 0; k < 400; ++k) {
+      const double z = normal(engine);
+      const double y = normal(engine);
+      const Vector3 p = Vector3(normal(engine), y, z).normalized();
+      points.push_back(p.cwiseProduct(Vector3(1.0, 0.8680916703, 0.8195079078)));
+    }
+    const FormAxes axes = oriented_box_axes(points);
+    EXPECT_LT(axes.shortest * axes.intermediate * axes.longest, 1.001 * box_by_chance(points));
+  }
+}
+
+// Otherwise a body in another pose could get another box.
+TEST(FrameOf, TurnsWithThePoints) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const std::vector<Vector3> points = shard(40 + seed);
+    const Eigen::Matrix3d frame = frame_of(points);
+    EXPECT_NEAR(frame.determinant(), 1.0, 1e-12);
+    const Eigen::Matrix3d turn = test::random_rotation(seed);
+    std::vector<Vector3> turned;
+    for (const Vector3& p : points) turned.emplace_back(turn * p + Vector3(3, 2, 1));
+    EXPECT_LT((frame_of(turned) - turn * frame).norm(), 1e-9) << seed;
   }
 }
 

@@ -59,7 +59,7 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
 /// Finds the smallest value of a function that is equal for a direction and its opposite. `coarse`
 /// and `medium` approximate it with fewer points. Evaluates `coarse` on a lattice of 500 directions
 /// and follows it downhill from at most 32 of the lattice's best minima. Then follows `medium` from
-/// the six best results, and `function` from the three best of these, to 1e-6 radians. If the
+/// the twelve best results, and `function` from the three best of these, to 1e-6 radians. If the
 /// result must turn with a body, give functions of the body in its own frame (frame_of).
 template <class Coarse, class Medium, class Function>
 DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& medium,
@@ -68,7 +68,7 @@ DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& me
   constexpr int lattice = 1000;
   constexpr double spacing = 0.112;  // of the lattice, radians
   constexpr std::size_t followed = 32;
-  constexpr std::size_t finished = 6;
+  constexpr std::size_t finished = 12;
   constexpr std::size_t compared = 3;
   constexpr double coarse_turn = 0.01;
   constexpr double medium_turn = 1e-3;
