@@ -206,6 +206,38 @@ TEST(FaceTriangles, KeepEdgesAndAreaOfAFrameWithCornersOnItsSides) {
   for (const auto& [edge, count] : uses) EXPECT_EQ(uses.count({edge[1], edge[0]}), 1U);
 }
 
+TEST(FaceTriangles, CrossNoSlitBetweenHoles) {
+  // A square with a slit from above, and a hole on either side: the corner nearest to the second
+  // hole is one of the first, behind the slit.
+  const std::vector<std::vector<Vector3>> loops = {
+      {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {5.1, 10, 0}, {5, 1, 0}, {4.9, 10, 0}, {0, 10, 0}},
+      {{4.2, 5, 0}, {4.3, 6, 0}, {4.6, 5.5, 0}},
+      {{5.4, 5.5, 0}, {5.7, 6.1, 0}, {5.8, 5, 0}}};
+  std::vector<Vector3> points;
+  FaceEdges edges;
+  double expected = 0.0;
+  for (const std::vector<Vector3>& loop : loops) {
+    const auto first = static_cast<std::int32_t>(points.size());
+    const auto count = static_cast<std::int32_t>(loop.size());
+    for (std::int32_t k = 0; k < count; ++k) {
+      const Vector3& p = loop[static_cast<std::size_t>(k)];
+      const Vector3& next = loop[static_cast<std::size_t>((k + 1) % count)];
+      expected += 0.5 * p.cross(next).z();
+      points.push_back(p);
+      edges.push_back({first + k, first + (k + 1) % count});
+    }
+  }
+  std::unordered_set<std::uint64_t> taken;
+  for (const auto& [a, b] : edges) taken.insert(undirected_key(a, b));
+  double area = 0.0;
+  for (const auto& [a, b, c] : face_triangles(points, edges, Vector3::UnitZ(), taken)) {
+    const double doubled = doubled_area_normal(points[a], points[b], points[c]).z();
+    EXPECT_GT(doubled, 0.0);
+    area += 0.5 * doubled;
+  }
+  EXPECT_NEAR(area, expected, 1e-12);
+}
+
 TEST(FaceTriangles, DoNotTakeAnEdgeThatAnotherFaceHas) {
   const std::vector<Vector3> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const FaceEdges edges = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};

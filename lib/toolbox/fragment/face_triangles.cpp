@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "toolbox/fragment/cell_complex.h"
@@ -51,12 +50,9 @@ void add_hole(const std::vector<Loop>& holes, std::size_t number, Loop& loop) {
   };
   std::vector<Bridge> bridges;
   for (std::size_t h = 0; h < hole.size(); ++h) {
-    Bridge best{std::numeric_limits<double>::infinity(), h, 0};
     for (std::size_t o = 0; o < loop.size(); ++o) {
-      const double length = (loop[o].place - hole[h].place).squaredNorm();
-      if (length < best.length) best = {length, h, o};
+      bridges.push_back({(loop[o].place - hole[h].place).squaredNorm(), h, o});
     }
-    bridges.push_back(best);
   }
   std::stable_sort(bridges.begin(), bridges.end(),
                    [](const Bridge& a, const Bridge& b) { return a.length < b.length; });
