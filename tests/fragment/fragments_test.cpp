@@ -248,6 +248,19 @@ TEST(Fragments, AreSmallerNearChosenPoints) {
     if (distance > farthest) std::tie(farthest, far_volume) = std::tie(distance, f.mass.volume);
   }
   EXPECT_GT(far_volume, 10.0 * near_volume);
+  // Each of several points counts.
+  options.near = {Vector3(0.0, 0.0, 1.0), Vector3(0.0, 0.0, -1.0)};
+  double largest = 0.0;
+  std::array<double, 2> at_points{};
+  std::array<double, 2> least = {9.0, 9.0};
+  for (const Fragment& f : fragment_grain(grain, options, Execution(1)).list) {
+    largest = std::max(largest, f.mass.volume);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double distance = (f.mass.centroid - options.near[k]).norm();
+      if (distance < least[k]) std::tie(least[k], at_points[k]) = std::tie(distance, f.mass.volume);
+    }
+  }
+  for (const double volume : at_points) EXPECT_GT(largest, 5.0 * volume);
 }
 
 TEST(Fragments, OfABoxHaveTheContactOfItsMiddle) {
@@ -277,7 +290,7 @@ TEST(Fragments, OfARingHaveTheExcessOfItsHull) {
 
 // The middle cell of a long ring has two legs, and the smaller one moves to a neighbour.
 TEST(Fragments, OfARingWhoseLegsMovedFillIt) {
-  const IndexedMesh ring = test::scaled(test::torus(1.0, 0.25, 40), {0.6, 3.0, 0.6});
+  const IndexedMesh ring = test::scaled(test::torus(1.0, 0.25, 40), {1.2, 6.0, 1.2});
   const Fragments result = divided(ring, 3);
   expect_division(ring, result, 3);
   EXPECT_EQ(result.moved_pieces, 1U);
