@@ -436,6 +436,12 @@ TEST(ConformingGrains, AreMeasuredAsByHand) {
   double smallest = 180.0;
   std::set<std::int32_t> flattest;
   std::vector<std::set<std::int32_t>> neighbours(9);
+  struct Wall {
+    double area = 0.0;
+    Vector3 moment = Vector3::Zero();
+    Vector3 from_outer = Vector3::Zero();
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Wall> walls;
   for (const WallTriangle& t : result.triangles) {
     const auto& [a, b, c] = t.corners;
     const std::array<double, 3> sides = {length(b, c), length(c, a), length(a, b)};
@@ -453,6 +459,14 @@ TEST(ConformingGrains, AreMeasuredAsByHand) {
       flattest = {t.inner, t.outer};
     }
     if (t.outer < 0) continue;
+    std::array<Vector3, 3> x;
+    for (std::size_t k = 0; k < 3; ++k)
+      x[k] = result.points[static_cast<std::size_t>(t.corners[k])];
+    const Vector3 area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]);
+    Wall& wall = walls[{t.outer, t.inner}];
+    wall.area += area.norm();
+    wall.moment += area.norm() / 3.0 * (x[0] + x[1] + x[2]);
+    wall.from_outer -= area;
     neighbours[static_cast<std::size_t>(t.inner)].insert(t.outer);
     neighbours[static_cast<std::size_t>(t.outer)].insert(t.inner);
   }
@@ -463,6 +477,14 @@ TEST(ConformingGrains, AreMeasuredAsByHand) {
   EXPECT_NEAR(result.smallest_angle, smallest, 1e-9);
   EXPECT_EQ(flattest.count(result.flattest), 1U);
   for (std::size_t g = 0; g < 9; ++g) EXPECT_EQ(result.grains[g].contacts, neighbours[g].size());
+  ASSERT_EQ(result.walls.size(), walls.size());
+  for (const CommonWall& wall : result.walls) {
+    const Wall& by_hand = walls.at({wall.first, wall.second});
+    EXPECT_NEAR(wall.area, by_hand.area, 1e-9);
+    EXPECT_LT((wall.centre - by_hand.moment / by_hand.area).norm(), 1e-9);
+    // Each triangle counts by its area.
+    EXPECT_LT((wall.normal - by_hand.from_outer.normalized()).norm(), 1e-9);
+  }
 }
 
 TEST(ConformingGrains, CountEachVoxelOnce) {
@@ -604,6 +626,9 @@ TEST(ConformingGrains, FragmentsAreRemeshedWithCommonWalls) {
       const Fragment& one = fragments.list[k];
       EXPECT_EQ(one.mesh.points.size(), result.grains[k].nodes);
       EXPECT_NEAR(one.mass.volume / volumes[k], 1.0, 1e-11);
+      const MeshSums sums =
+          mesh_sums(one.mesh.points, one.mesh.triangles, one.mesh.points[0], Execution(1));
+      EXPECT_NEAR((one.surface_area + one.wall_area) / sums.area(), 1.0, 1e-11);
       EXPECT_NEAR(static_cast<double>(one.mesh.points.size()), 150.0, 25.0);
       sum += one.mass.volume;
     }
