@@ -52,6 +52,24 @@ TEST(GrainMeasures, OfASphereHaveNothingToRemark) {
   }
 }
 
+TEST(GrainMeasures, DistancesAreFromTheGrainToTheReferenceAndBack) {
+  // The grain's tip is far from the reference, and no place of the reference from the grain.
+  IndexedMesh tip = test::sphere(3);
+  tip.points[7] *= 1.3;
+  const GrainMeasures measures = measure_grain({"tip", tip}, NamedMesh{"ball", test::sphere(3)},
+                                               DetailedOptions(), Execution(1));
+  EXPECT_NEAR(measures.distances->to_reference.maximum, 0.3, 1e-12);
+  EXPECT_LT(measures.distances->from_reference.maximum, 0.15);
+}
+
+TEST(GrainMeasures, TellHolesThatWereFilled) {
+  IndexedMesh open = test::sphere(4);
+  open.triangles.erase(open.triangles.begin() + 5);
+  const std::vector<Sentence> sentences =
+      remarks(measure_grain({"ball", open}, std::nullopt, DetailedOptions(), Execution(1)));
+  EXPECT_EQ(count_of(sentences, "This changed "), 1);
+}
+
 // The steps of single precision far from the origin look like those of voxels.
 TEST(GrainMeasures, TellStepsOfSinglePrecisionFromThoseOfVoxels) {
   IndexedMesh ball = test::sphere(5);
