@@ -63,7 +63,7 @@ constexpr Source sources[] = {
      nullptr},
 };
 
-[[noreturn]] void refuse(const std::string& path, const std::string& what) {
+[[noreturn]] void refuse_table(const std::string& path, const std::string& what) {
   throw Error(ErrorCode::InvalidInput, "\"" + path + "\" " + what);
 }
 
@@ -226,13 +226,13 @@ SampleSummary summarise_table(const std::string& path) {
   std::ifstream stream = open_to_read(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
-  if (!reader.next(fields)) refuse(path, "is empty. Give a table that batch wrote.");
+  if (!reader.next(fields)) refuse_table(path, "is empty. Give a table that batch wrote.");
   const std::vector<std::string> header = fields;
   const auto place_of = [&](const char* name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      refuse(path, std::string("has no column ") + name +
-                       ", so it is not a table of a sample. Give a table that batch wrote.");
+      refuse_table(path, std::string("has no column ") + name +
+                             ", so it is not a table of a sample. Give a table that batch wrote.");
     }
     return static_cast<std::size_t>(found - header.begin());
   };
@@ -255,9 +255,9 @@ SampleSummary summarise_table(const std::string& path) {
   const std::size_t distance = place_of("rms_distance.percent_of_equivalent_radius");
   while (reader.next(fields)) {
     if (fields.size() != header.size()) {
-      refuse(path, "has " + std::to_string(fields.size()) + " fields in row " +
-                       std::to_string(summary.grains + 1) + " and " +
-                       std::to_string(header.size()) + " columns. Create it again.");
+      refuse_table(path, "has " + std::to_string(fields.size()) + " fields in row " +
+                             std::to_string(summary.grains + 1) + " and " +
+                             std::to_string(header.size()) + " columns. Create it again.");
     }
     ++summary.grains;
     if (fields[status] != "done") {
@@ -284,7 +284,7 @@ SampleSummary summarise_table(const std::string& path) {
     }
   }
   if (reader.is_cut()) {
-    refuse(path, "ends within a row. Run its batch command again to complete it.");
+    refuse_table(path, "ends within a row. Run its batch command again to complete it.");
   }
   for (SampleDistribution& one : summary.distributions) {
     std::sort(one.values.begin(), one.values.end());
