@@ -321,45 +321,31 @@ double largest_distance(const IndexedMesh& from, const MeshDistance& to, double 
       .value;
 }
 
-/// Returns the largest distance of points of the faces that are known to be farthest; `known`: by
-/// face, distances of points of it. Needs no tree of the reference.
-double largest_near_the_farthest(const IndexedMesh& mesh, const std::vector<double>& known,
-                                 const IndexedMesh& reference) {
-  constexpr std::size_t most_farthest = 256;
-  const std::size_t count = std::min(mesh.triangles.size(), most_farthest);
+/// Returns the largest distance of a grid of points on the faces that are known to be farthest;
+/// `known`: by face, the largest distance of some points of it. Needs no tree of the reference.
+double largest_of_the_farthest(const IndexedMesh& mesh, const std::vector<double>& known,
+                               const IndexedMesh& reference, const Execution& execution) {
+  constexpr std::size_t most_faces = 128;
+  constexpr int steps = 10;
+  const std::size_t count = std::min(mesh.triangles.size(), most_faces);
   std::vector<std::size_t> order(mesh.triangles.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](std::size_t a, std::size_t b) {
                       return known[a] != known[b] ? known[a] > known[b] : a < b;
                     });
-  std::vector<Piece> faces;
-  std::vector<BoxGrid::Box> boxes;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& [a, b, c] = mesh.triangles[order[i]];
-    faces.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
-    const BoxGrid::Box box = box_of(faces.back());
-    // No point of the face is farther from the nearest face than this.
-    const Vector3 reach = Vector3::Constant(known[order[i]] + box.diagonal().norm());
-    boxes.emplace_back(box.min() - reach, box.max() + reach);
+  std::vector<Vector3> points;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [a, b, c] = mesh.triangles[order[k]];
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; i + j <= steps; ++j) {
+        points.push_back(
+            (i * mesh.points[a] + j * mesh.points[b] + (steps - i - j) * mesh.points[c]) / steps);
+      }
+    }
   }
-  const BoxGrid grid(std::move(boxes));
-  IndexedMesh part;
-  for (const Triangle& t : reference.triangles) {
-    const Piece corners = {reference.points[t[0]], reference.points[t[1]], reference.points[t[2]]};
-    bool is_near = false;
-    grid.visit(box_of(corners), [&](std::int32_t) { is_near = true; });
-    if (!is_near) continue;
-    const auto first = static_cast<std::int32_t>(part.points.size());
-    part.points.insert(part.points.end(), corners.begin(), corners.end());
-    part.triangles.push_back({first, first + 1, first + 2});
-  }
-  const double found = known[order.front()];
-  if (!has_area(part)) return found;
-  const MeshDistance to(part);
-  LargestDistance search(to, found, 1e-5 * size_of(mesh.points));
-  for (const Piece& face : faces) search.search(face, most_quartered);
-  return search.found();
+  const std::vector<double> distances = distances_to(reference, points, execution);
+  return std::max(known[order.front()], *std::max_element(distances.begin(), distances.end()));
 }
 
 OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
@@ -425,7 +411,7 @@ MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& refe
   }
   distances.resize(samples);
   OneSidedDistance to = of_samples(distances, execution);
-  to.maximum = largest_near_the_farthest(mesh, of_faces, reference);
+  to.maximum = largest_of_the_farthest(mesh, of_faces, reference, execution);
   // The mesh is nearly flat beside a face of the dense reference, so a corner is the farthest.
   const MeshDistance to_mesh(mesh, execution);
   OneSidedDistance from =

@@ -68,9 +68,9 @@ MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 
 /// Measures the same with few samples: it builds no tree of a reference that has many more faces
 /// than there are points, as a scan may have. If the reference has more than four times the faces
-/// of the mesh, a maximum is searched in the 256 faces of the mesh that are farthest by their
-/// samples and corners, and at the corners of the reference. On ten remeshes of five grains it was
-/// then at most 0.3 % smaller. `mesh`: all vertices have faces.
+/// of the mesh, a maximum is that of 66 points on each of the 128 faces of the mesh that are
+/// farthest by their samples and corners, and of the corners of the reference. On twelve remeshes
+/// of six grains it was then at most 3.3 % smaller. `mesh`: all vertices have faces.
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution);
 
