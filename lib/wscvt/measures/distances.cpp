@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -143,11 +144,16 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
   return distances;
 }
 
+/// Whether a mesh has so many faces that a tree of them costs more than a search for each point.
+bool has_many_faces(const IndexedMesh& mesh, std::size_t points) {
+  return mesh.triangles.size() > 2 * first_faces_a_point * points;
+}
+
 /// Returns the distances from points to a mesh. The way is chosen for few points and one use.
 std::vector<double> distances_to(const IndexedMesh& mesh, const std::vector<Vector3>& points,
                                  const Execution& execution) {
   execution.report(0.0, distance_stage);
-  if (mesh.triangles.size() > 2 * first_faces_a_point * points.size()) {
+  if (has_many_faces(mesh, points.size())) {
     std::vector<double> distances = distances_to_many(mesh, points, execution);
     if (!distances.empty()) return distances;
   }
@@ -277,6 +283,7 @@ class LargestDistance {
 
 /// Parallel walls far apart would need more; what is found is a distance anyway.
 constexpr std::size_t most_quartered = 256;
+
 /// Returns the diagonal of the box around points; length.
 double size_of(const std::vector<Vector3>& points) {
   Eigen::AlignedBox3d box;
@@ -321,10 +328,10 @@ double largest_distance(const IndexedMesh& from, const MeshDistance& to, double 
       .value;
 }
 
-/// Returns the largest distance of a grid of points on the faces that are known to be farthest;
-/// `known`: by face, the largest distance of some points of it. Needs no tree of the reference.
-double largest_of_the_farthest(const IndexedMesh& mesh, const std::vector<double>& known,
-                               const IndexedMesh& reference, const Execution& execution) {
+/// Returns a grid of points on the faces that are known to be farthest; `known`: by face, the
+/// largest distance of some points of it.
+std::vector<Vector3> points_of_the_farthest(const IndexedMesh& mesh,
+                                            const std::vector<double>& known) {
   constexpr std::size_t most_faces = 128;
   constexpr int steps = 10;
   const std::size_t count = std::min(mesh.triangles.size(), most_faces);
@@ -344,8 +351,7 @@ double largest_of_the_farthest(const IndexedMesh& mesh, const std::vector<double
       }
     }
   }
-  const std::vector<double> distances = distances_to(reference, points, execution);
-  return std::max(known[order.front()], *std::max_element(distances.begin(), distances.end()));
+  return points;
 }
 
 OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std::size_t samples,
@@ -353,6 +359,39 @@ OneSidedDistance one_sided(const IndexedMesh& from, const MeshDistance& to, std:
   OneSidedDistance result =
       of_samples(to.distances(area_uniform_samples(from, samples), execution), execution);
   result.maximum = largest_distance(from, to, result.maximum, execution);
+  return result;
+}
+
+/// As one_sided, but the maximum is searched on the farthest faces only, and a reference of many
+/// faces gets no tree. All vertices of `mesh` have faces.
+OneSidedDistance one_sided_to_scan(const IndexedMesh& mesh, const IndexedMesh& scan,
+                                   std::size_t samples, const Execution& execution) {
+  std::optional<MeshDistance> tree;
+  if (!has_many_faces(scan, samples + mesh.points.size())) tree.emplace(scan, execution);
+  const auto distances_of = [&](const std::vector<Vector3>& points) {
+    return tree ? tree->distances(points, execution) : distances_to(scan, points, execution);
+  };
+  std::vector<Vector3> points;
+  const std::vector<MeshPlace> places = area_uniform_places(mesh, samples);
+  for (const MeshPlace& place : places) points.push_back(point_at(mesh, place));
+  points.insert(points.end(), mesh.points.begin(), mesh.points.end());
+  std::vector<double> distances = distances_of(points);
+  std::vector<double> of_faces(mesh.triangles.size(), 0.0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double& of_face = of_faces[places[i].triangle];
+    of_face = std::max(of_face, distances[i]);
+  }
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) {
+      of_faces[f] = std::max(of_faces[f], distances[samples + static_cast<std::size_t>(v)]);
+    }
+  }
+  const std::vector<double> of_farthest = distances_of(points_of_the_farthest(mesh, of_faces));
+  const double largest = std::max(*std::max_element(distances.begin(), distances.end()),
+                                  *std::max_element(of_farthest.begin(), of_farthest.end()));
+  distances.resize(samples);
+  OneSidedDistance result = of_samples(distances, execution);
+  result.maximum = largest;
   return result;
 }
 
@@ -394,24 +433,7 @@ MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& refe
   if (reference.triangles.size() <= denser * mesh.triangles.size()) {
     return measure_distances(mesh, reference, {samples}, execution);
   }
-  std::vector<double> of_faces(mesh.triangles.size(), 0.0);
-  std::vector<Vector3> points;
-  const std::vector<MeshPlace> places = area_uniform_places(mesh, samples);
-  for (const MeshPlace& place : places) points.push_back(point_at(mesh, place));
-  points.insert(points.end(), mesh.points.begin(), mesh.points.end());
-  std::vector<double> distances = distances_to(reference, points, execution);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    double& of_face = of_faces[places[i].triangle];
-    of_face = std::max(of_face, distances[i]);
-  }
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (const std::int32_t v : mesh.triangles[f]) {
-      of_faces[f] = std::max(of_faces[f], distances[samples + static_cast<std::size_t>(v)]);
-    }
-  }
-  distances.resize(samples);
-  OneSidedDistance to = of_samples(distances, execution);
-  to.maximum = largest_of_the_farthest(mesh, of_faces, reference, execution);
+  const OneSidedDistance to = one_sided_to_scan(mesh, reference, samples, execution);
   // The mesh is nearly flat beside a face of the dense reference, so a corner is the farthest.
   const MeshDistance to_mesh(mesh, execution);
   OneSidedDistance from =
