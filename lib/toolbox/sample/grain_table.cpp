@@ -365,8 +365,7 @@ GrainTable TableReader::table() {
   if (has_comma_ && !doubtful_.empty()) {
     fail_at(doubtful_line_, "\"" + readable(doubtful_, "") +
                                 "\" may have a point between thousands, because other fields have "
-                                "decimal commas. Write "
-                                "numbers without marks between thousands.");
+                                "decimal commas. Write numbers without marks between thousands.");
   }
   for (const Marks& marks : marks_) {
     if (marks.grouped.empty() || !marks.has_whole || marks.has_decimal) continue;
@@ -375,8 +374,7 @@ GrainTable TableReader::table() {
         "\"" + readable(marks.grouped, "") +
             "\" may have a point between thousands, because other numbers of its column are whole. "
             "Write numbers without marks between thousands. If the point is a decimal point, "
-            "separate "
-            "the columns by commas.");
+            "separate the columns by commas.");
   }
   if (table_.grains.empty()) fail("no row of the table has a grain.");
   std::vector<std::size_t> taken;

@@ -50,26 +50,27 @@ std::vector<double> logarithms(std::vector<double> values) {
   return values;
 }
 
-/// Returns right-handed principal axes as columns, longest first; signs by the third moments, as in
-/// principal_axes for a mesh.
+/// Returns right-handed principal axes as columns, longest first; see principal_axes.
 Eigen::Matrix3d axes_of(const HarmonicGrid& grid, const std::vector<double>& radii,
                         const RadialMoments& moments) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments.covariance);
-  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
-  Vector3 third = Vector3::Zero();
-  // For the cone under a patch, the integral of ((p - c) . a)^3 dV from the origin to the surface.
-  const Eigen::Array3d c = axes.transpose() * moments.centroid;
-  for (std::size_t k = 0; k < radii.size(); ++k) {
-    const Eigen::Array3d p = radii[k] * (axes.transpose() * grid.directions()[k]);
-    const Eigen::Array3d cubes =
-        p.cube() / 6.0 - 0.6 * p.square() * c + 0.75 * p * c.square() - c.cube() / 3.0;
-    third += grid.weights()[k] * radii[k] * radii[k] * radii[k] * cubes.matrix();
-  }
-  for (int axis = 0; axis < 2; ++axis) {
-    if (third[axis] < 0.0) axes.col(axis) = -axes.col(axis);
-  }
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes;
+  const Eigen::Matrix3d inertia =
+      moments.volume *
+      (moments.covariance.trace() * Eigen::Matrix3d::Identity() - moments.covariance);
+  const auto moments_along = [&](const Eigen::Matrix<double, 3, 2>& axes) {
+    AxisMoments sums;
+    sums.volume = moments.volume;
+    // For the cone under a patch, the integral of ((p - c) . a)^3 dV from the origin to the
+    // surface.
+    const Eigen::Array2d c = axes.transpose() * moments.centroid;
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+      const Eigen::Array2d p = radii[k] * (axes.transpose() * grid.directions()[k]);
+      const Eigen::Array2d cubes =
+          p.cube() / 6.0 - 0.6 * p.square() * c + 0.75 * p * c.square() - c.cube() / 3.0;
+      sums.third += grid.weights()[k] * radii[k] * radii[k] * radii[k] * cubes.matrix();
+    }
+    return sums;
+  };
+  return principal_axes(inertia, moments_along).toRotationMatrix();
 }
 
 std::optional<SampleGrain> star_shaped_grain(const HarmonicSurface& surface,
