@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
+#include <iterator>
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/file_folder.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
 
@@ -91,6 +95,52 @@ TEST(MachineRefused, IsAFolderThatIsGone) {
   EXPECT_TRUE(is_of_the_machine("no such folder/no.ply", ENOENT, sentence));
   EXPECT_NE(sentence.find("the folder \"no such folder\" is not there"), std::string::npos)
       << sentence;
+}
+
+/// A file of Linux that can be opened, and whose first byte the system refuses to read.
+constexpr const char* unreadable = "/proc/self/mem";
+
+TEST(InputFile, EveryWayToReadTellsWhatTheSystemRefuses) {
+  InputFile by_line(unreadable);
+  std::string text;
+  EXPECT_THROW(std::getline(by_line, text), MachineRefused);
+  InputFile by_block(unreadable);
+  std::array<char, 100000> block{};
+  EXPECT_THROW(by_block.read(block.data(), block.size()), MachineRefused);
+  InputFile by_number(unreadable);
+  double number = 0.0;
+  EXPECT_THROW(by_number >> number, MachineRefused);
+  try {
+    file_content(unreadable);
+    FAIL();
+  } catch (const MachineRefused& error) {
+    EXPECT_STREQ(error.what(), "\"/proc/self/mem\" could not be read to its end. Check the disk.");
+  }
+}
+
+class InputFiles : public test::FileFolder {};
+
+TEST_F(InputFiles, AreReadToTheirEndsWhateverTheirLengths) {
+  for (const std::size_t length : {0U, 1U, 8191U, 8192U, 8193U, 100001U}) {
+    std::string content;
+    for (std::size_t k = 0; k < length; ++k) content += static_cast<char>(k * k % 251);
+    EXPECT_EQ(file_content(file("f", content)), content);
+    InputFile stream(path("f"));
+    std::string start(length / 3, '\0');
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    EXPECT_EQ(start + std::string(std::istreambuf_iterator<char>(stream), {}), content);
+  }
+}
+
+TEST_F(InputFiles, ThatAreMissingAreRefusedOrEmpty) {
+  EXPECT_THROW(InputFile(path("no.csv")), FileMissing);
+  InputFile empty(path("no.csv"), MissingFile::IsEmpty);
+  std::string line;
+  EXPECT_FALSE(std::getline(empty, line));
+  EXPECT_EQ(file_content(path("no.csv")), "");
+  EXPECT_EQ(file_content(path("no folder/no.csv")), "");
+  EXPECT_ERROR(file_content(path(".")), InputOutput);
+  EXPECT_ERROR(InputFile("/dev/zero"), InputOutput);
 }
 
 }  // namespace

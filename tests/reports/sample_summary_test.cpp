@@ -62,6 +62,11 @@ TEST(SampleTable, RowsHaveTheColumnsOfTheHeader) {
   EXPECT_EQ(records[2].back(), "");
 }
 
+TEST(SampleSummary, OfATableThatTheSystemRefusesToReadIsNotMade) {
+  // A file of Linux that can be opened, and whose first byte cannot be read.
+  EXPECT_THROW(summarise_table("/proc/self/mem"), MachineRefused);
+}
+
 TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   std::string table = sample_header();
   for (const double radius : {4.0, 1.0, 3.0, 2.0}) {

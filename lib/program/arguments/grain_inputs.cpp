@@ -3,8 +3,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "program/arguments/common_arguments.h"
@@ -17,6 +15,7 @@
 #include "toolbox/job/label_source.h"
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/volume/open_volume.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -35,8 +34,7 @@ void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet)
 }
 
 void copy_text(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::ifstream file(from, std::ios::binary);
-  write_file(to.string(), std::string(std::istreambuf_iterator<char>(file), {}));
+  write_file(to.string(), file_content(from.string()));
 }
 
 /// Writes what the engine needs into the folder of a job. A sample that is a folder of templates

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/portable_math.h"
@@ -427,7 +427,7 @@ bool is_clump_file(const std::string& path) {
 }
 
 std::vector<Sphere> read_clump(const std::string& path) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   std::string line;
   std::size_t number = 0;
   const std::optional<SphereColumns> columns = next_columns(stream, line, number);

@@ -5,13 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/exchange/part_files.h"
 #include "toolbox/exchange/simulation_options.h"
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
@@ -83,7 +83,7 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
 }
 
 double volume_of_fragments(const std::string& path) {
-  std::ifstream table(path, std::ios::binary);
+  InputFile table(path, MissingFile::IsEmpty);
   double sum = 0.0;
   for (const std::string& field : column_of(table, "volume")) {
     double volume = 0.0;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -18,6 +17,7 @@
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/grain_table.h"
 #include "toolbox/volume/segmentation.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
@@ -273,10 +273,12 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   if (job.shard.count > 1) return {};
   const JobFolder folder = folders_of(job).front();
   std::map<std::string, std::string> records;
-  std::ifstream rows(folder.table(), std::ios::binary);
-  CsvReader reader(rows);
-  std::vector<std::string> fields;
-  while (reader.next(fields)) records[fields.front()] = reader.text();
+  {
+    InputFile rows(folder.table(), MissingFile::IsEmpty);
+    CsvReader reader(rows);
+    std::vector<std::string> fields;
+    while (reader.next(fields)) records[fields.front()] = reader.text();
+  }
   const std::string census = grains.census([&](const std::string& grain) -> MadeGrain {
     const std::string record = records[csv_field(grain)];
     const std::string error = failure_in(record);
@@ -285,7 +287,6 @@ std::vector<std::string> write_census(const ExtractJob& options, const GrainJob&
   });
   const OlderFiles older(folder.path(), {options.table + ".csv"});
   write_file(folder.file(options.table, ".csv"), census);
-  rows.close();
   std::error_code ignored;
   std::filesystem::remove(folder.table(), ignored);
   std::vector<std::string> lines = {census_line(census_states(census), options.table)};

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/system_files.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -51,7 +50,7 @@ void add_input(const std::string& input, const IsVolume& is_volume,
 }
 
 void add_list(const std::string& list, const IsVolume& is_volume, std::vector<std::string>& files) {
-  std::ifstream lines = open_to_read(list);
+  InputFile lines(list);
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     // A list of lists could contain itself.
@@ -62,7 +61,6 @@ void add_list(const std::string& list, const IsVolume& is_volume, std::vector<st
     }
     if (!line.empty()) add_input(line, is_volume, files);
   }
-  if (lines.bad()) refuse_to_read(list);
 }
 
 bool is_list(const std::string& input) { return !input.empty() && input.front() == '@'; }

@@ -2,7 +2,6 @@
 #include "toolbox/job/grain_job.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -16,7 +15,7 @@
 #include "toolbox/report/sample_table.h"
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/report/json.h"
@@ -114,10 +113,7 @@ bool is_begun(const JobFolder& folder, const std::string& table_name) {
 /// has a table of another command.
 bool has_call(const JobFolder& folder, const GrainJob& job) {
   const std::string path = folder.file("call", ".json");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file && errno != ENOENT && errno != ENOTDIR) refuse_to_read(path);
-  const std::string before((std::istreambuf_iterator<char>(file)), {});
+  const std::string before = file_content(path);
   if (before == job.call) return true;
   const std::string other = format_of_call(before);
   if (!other.empty() && other != format_of_call(job.call)) refuse_folder(folder.path(), other);
@@ -241,7 +237,7 @@ class PartRows {
   GrainRow row(const std::string& grain) const {
     GrainRow row;
     for (const Place& place : *places_of(grain)) {
-      std::ifstream file(files_[place.file], std::ios::binary);
+      InputFile file(files_[place.file]);
       std::string record(place.size, '\0');
       file.seekg(static_cast<std::streamoff>(place.offset));
       file.read(record.data(), static_cast<std::streamsize>(record.size()));
@@ -260,7 +256,7 @@ class PartRows {
   };
 
   void add(const std::string& path, const std::string& header, std::size_t column) {
-    std::ifstream file(path, std::ios::binary);
+    InputFile file(path);
     CsvReader reader(file);
     std::vector<std::string> fields;
     if (!reader.next(fields) || reader.text() != header) return;

@@ -2,14 +2,13 @@
 #include "toolbox/job/job_folder.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <system_error>
 #include <utility>
 
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/report/json.h"
@@ -80,9 +79,8 @@ void refuse_folder(const std::string& folder, const std::string& other) {
 }
 
 void require_no_job(const std::string& folder) {
-  std::ifstream file(fs::path(folder) / "call.json", std::ios::binary);
-  const std::string call((std::istreambuf_iterator<char>(file)), {});
-  const std::string format = format_of_call(call);
+  const std::string format =
+      format_of_call(file_content((fs::path(folder) / "call.json").string()));
   if (!format.empty()) refuse_folder(folder, format);
 }
 
@@ -91,8 +89,7 @@ std::string kept_call(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (name == "call.json" || (name.rfind("call-", 0) == 0 && name.find("-of-") != name.npos)) {
-      std::ifstream file(entry.path(), std::ios::binary);
-      return {std::istreambuf_iterator<char>(file), {}};
+      return file_content(entry.path().string());
     }
   }
   return {};
@@ -119,7 +116,7 @@ bool is_kept_by_job(const std::string& file) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const fs::path& table = entry.path();
     if (table.filename().string().rfind("grains", 0) != 0 || table.extension() != ".csv") continue;
-    std::ifstream rows(table, std::ios::binary);
+    InputFile rows(table.string());
     CsvReader reader(rows);
     std::vector<std::string> fields;
     while (reader.next(fields)) {
@@ -136,7 +133,7 @@ void require_no_other_results(const std::string& folder, const std::string& own,
                               const std::set<std::string>& made) {
   for (const std::string table : {"labels", "bodies", "fragments", "grown", "templates"}) {
     if (table == own) continue;
-    std::ifstream file(fs::path(folder) / (table + ".csv"), std::ios::binary);
+    InputFile file((fs::path(folder) / (table + ".csv")).string(), MissingFile::IsEmpty);
     if (!file) continue;
     const std::vector<std::string> files = column_of(file, "file");
     const bool is_replaced = made.count(table + ".csv") > 0 ||
@@ -149,7 +146,7 @@ void require_no_other_results(const std::string& folder, const std::string& own,
 
 void require_own_table(const std::string& folder, const std::string& table,
                        const std::string& header) {
-  std::ifstream file(fs::path(folder) / table, std::ios::binary);
+  InputFile file((fs::path(folder) / table).string(), MissingFile::IsEmpty);
   std::string line;
   if (!std::getline(file, line) || line + "\n" == header) return;
   refuse("The folder \"" + folder + "\" has a " + table +
@@ -160,7 +157,7 @@ void require_own_table(const std::string& folder, const std::string& table,
 OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& tables)
     : folder_(std::move(folder)) {
   for (const std::string& table : tables) {
-    std::ifstream file(folder_ / table, std::ios::binary);
+    InputFile file((folder_ / table).string(), MissingFile::IsEmpty);
     for (std::string& name : column_of(file, "file")) {
       // A path elsewhere is not of these tables.
       if (!name.empty() && fs::path(name).filename() == name) files_.push_back(std::move(name));

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,6 +15,7 @@
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
@@ -191,8 +190,8 @@ class GrainRemesh {
 
 /// Returns the states of the labels of a job's volumes; empty if it has none.
 CensusStates label_states(const GrainJob& job) {
-  std::ifstream file(std::filesystem::path(job.folder) / "labels.csv", std::ios::binary);
-  const std::string table((std::istreambuf_iterator<char>(file)), {});
+  const std::string table =
+      file_content((std::filesystem::path(job.folder) / "labels.csv").string());
   if (table.rfind(label_header(), 0) != 0) return {};
   CensusStates states = census_states(table);
   // A batch of meshes may stand beside the table of extract.

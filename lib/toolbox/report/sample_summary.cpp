@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -13,7 +12,7 @@
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -223,7 +222,7 @@ bool is_spread(const SampleDistribution& one) {
 }  // namespace
 
 SampleSummary summarise_table(const std::string& path) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (!reader.next(fields)) refuse_table(path, "is empty. Give a table that batch wrote.");

@@ -2,13 +2,12 @@
 #include "toolbox/report/sample_table.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
@@ -90,7 +89,7 @@ std::string failure_in(const std::string& record) {
 SampleTable::SampleTable(const std::string& path, const std::string& header,
                          const std::vector<std::string>& grains)
     : table_(writable(path), TableUse::AppendAlone) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (reader.next(fields) && reader.text() != header) {

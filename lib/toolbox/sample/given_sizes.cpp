@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
@@ -87,7 +86,7 @@ double GivenSizes::diameter(double fraction) const {
 }
 
 GivenSizes read_given_sizes(const std::string& path) {
-  std::ifstream file = open_to_read(path);
+  InputFile file(path);
   std::vector<double> diameters;
   std::vector<double> percentages;
   CsvReader reader(file, Separator::OfEachRecord);
@@ -119,7 +118,6 @@ GivenSizes read_given_sizes(const std::string& path) {
     }
   }
   if (reader.is_cut()) refuse_line();
-  if (file.bad()) refuse_to_read(path);
   return {std::move(diameters), std::move(percentages)};
 }
 

@@ -14,7 +14,7 @@
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/foreign_columns.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
@@ -434,7 +434,7 @@ std::string heading_of(const GrainColumn& column) {
 }
 
 GrainTable read_grain_table(const std::string& path) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   CsvReader reader(stream, Separator::OfFirstRecord);
   TableReader table(path, reader);
   std::vector<std::string> fields;
@@ -445,7 +445,6 @@ GrainTable read_grain_table(const std::string& path) {
   }
   table.read_heading(fields);
   while (reader.next(fields)) table.read_row(fields);
-  if (stream.bad()) refuse_to_read(path);
   if (!table.has_status() && reader.last(fields)) {
     table.read_row(fields);
   } else if (reader.is_cut()) {

@@ -13,11 +13,8 @@ namespace wscvt {
 
 HeaderFile::HeaderFile(const std::string& path, std::uint64_t begin)
     : size_(file_size(path)),
-      stream_(path, std::ios::binary),
+      stream_(path),
       reader_(stream_, size_ - std::min(size_, begin), path) {
-  if (!stream_.is_open()) {
-    refuse_volume(path, "cannot be opened. Check that the file is readable.");
-  }
   stream_.seekg(static_cast<std::streamoff>(std::min(size_, begin)));
 }
 

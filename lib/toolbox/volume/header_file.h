@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/mesh_files/byte_reader.h"
 
 namespace wscvt {
@@ -36,7 +36,7 @@ class HeaderFile {
 
  private:
   std::uint64_t size_;
-  std::ifstream stream_;
+  InputFile stream_;
   ByteReader reader_;
 };
 

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
@@ -22,7 +22,7 @@ Json description_of(const std::string& path) {
   if (file_size(path) > most_bytes) {
     refuse_volume(path, "is too large for the description of a raw file. Give the description.");
   }
-  std::ifstream stream(path, std::ios::binary);
+  InputFile stream(path);
   Json description = Json::parse(stream, nullptr, false);
   if (!description.is_object()) {
     refuse_volume(path, "is not a JSON object. See lib/doc/files.md for its content.");

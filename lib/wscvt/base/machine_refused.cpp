@@ -29,17 +29,6 @@ bool is_of_the_file(int error_number) {
   }
 }
 
-/// Does nothing for a file, a pipe, or a name without a file.
-void refuse_device(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_fifo(status)) {
-    return;
-  }
-  throw Error(ErrorCode::InputOutput,
-              "\"" + path + "\" is a folder or a device. Give the name of a file.");
-}
-
 }  // namespace
 
 void refuse_to_open(const std::string& path, int error_number) {
@@ -63,14 +52,6 @@ void refuse_to_open(const std::string& path, int error_number) {
 
 void refuse_to_read(const std::string& path) {
   throw MachineRefused("\"" + path + "\" could not be read to its end. Check the disk.");
-}
-
-std::ifstream open_to_read(const std::string& path) {
-  refuse_device(path);
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) refuse_to_open(path, errno);
-  return stream;
 }
 
 }  // namespace wscvt

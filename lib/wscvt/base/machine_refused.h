@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <fstream>
 #include <string>
 #include <utility>
 
@@ -25,10 +24,6 @@ class FolderMissing : public MachineRefused {
 /// FileMissing, Error(InputOutput) if the file is not readable, FolderMissing, or MachineRefused if
 /// the machine is at fault.
 [[noreturn]] void refuse_to_open(const std::string& path, int error_number);
-
-/// Opens a file or a pipe for reading. Throws as refuse_to_open, and Error(InputOutput) for a
-/// folder or a device, such as /dev/zero, which has no end.
-std::ifstream open_to_read(const std::string& path);
 
 /// Throws MachineRefused for a file that was opened but could not be read to its end.
 [[noreturn]] void refuse_to_read(const std::string& path);

@@ -51,7 +51,6 @@ bool ByteReader::fill(std::size_t count) {
   stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(wanted));
   const auto got = static_cast<std::size_t>(stream_.gcount());
   end_ += got;
-  if (stream_.bad()) refuse_to_read(path_);
   // The file ends here if it became shorter after its size was read.
   unread_ = got < wanted ? 0 : unread_ - got;
   return end_ >= count;

@@ -11,7 +11,6 @@
 #include <boost/endian/conversion.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -285,13 +285,10 @@ MeshFile read_mesh_file(const std::string& path, const Execution& execution) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   const bool is_pipe = std::filesystem::is_fifo(status);
-  std::ifstream file = open_to_read(path);
+  InputFile file(path);
   if (is_pipe) {
     // The size of a pipe is known only at its end.
-    std::stringstream content;
-    content.exceptions(std::ios::badbit);  // else refused memory would look like the pipe's end
-    content << file.rdbuf();
-    return read_content(content.str(), path, format, execution);
+    return read_content({std::istreambuf_iterator<char>(file), {}}, path, format, execution);
   }
   if (is_gzip(path)) {
     return read_content(gzip_content(path, execution), path, format, execution);

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/mesh_files/byte_reader.h"
 #include "wscvt/mesh_files/readers.h"
 #include "wscvt/mesh_files/text_fields.h"
@@ -60,7 +60,7 @@ std::string map_name(TextFields fields) {
 void read_materials(const fs::path& path, std::map<std::string, Material>& materials) {
   std::error_code error;
   const std::uintmax_t size = fs::file_size(path, error);
-  std::ifstream stream(path, std::ios::binary);
+  InputFile stream(path.string(), MissingFile::IsEmpty);
   ByteReader reader(stream, error ? 0 : size, path.string());
   Material* material = nullptr;
   while (const std::optional<std::string_view> line = reader.line()) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <fstream>
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
-#include "wscvt/base/machine_refused.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
@@ -46,7 +45,7 @@ struct ComplexCoefficient {
 /// Returns coefficients in the order of harmonic_index, up to the highest degree in the file.
 /// Allows commas between numbers if `with_commas`.
 std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_commas) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   std::vector<ComplexCoefficient> coefficients;
   std::string text;
   std::size_t line = 0;
@@ -79,10 +78,6 @@ std::vector<ComplexCoefficient> read_lines(const std::string& path, bool with_co
                   "repeats the coefficient of line " + std::to_string(coefficient.line) + ".");
     }
     coefficient = {line, {real, imaginary}};
-  }
-  if (stream.bad()) {
-    throw Error(ErrorCode::InputOutput,
-                "Reading the file " + path + " failed at line " + std::to_string(line) + ".");
   }
   if (coefficients.empty()) refuse_file(path, "it has no coefficients.");
   return coefficients;
@@ -127,7 +122,7 @@ HarmonicSurface make_surface(const std::string& path, std::vector<double> coeffi
 /// Opens and parses the file, checks its format and calls `read`.
 template <class Read>
 auto read_json(const std::string& path, const Read& read) {
-  std::ifstream stream = open_to_read(path);
+  InputFile stream(path);
   try {
     const nlohmann::json json = nlohmann::json::parse(stream);
     if (json.at("format").get<std::string>() != format_tag) {
