@@ -453,6 +453,24 @@ std::string bytes_of_float(const std::vector<std::uint32_t>& labels, Value last)
 }
 
 // MorphoLibJ's watershed, and every user of NumPy.
+// As on a network's disk that goes away.
+TEST_F(TiffVolume, ThatIsCutWhileItIsReadIsRefused) {
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW}) {
+    TiffPages stack = as();
+    stack.compression = compression;
+    write_tiff(path("a.tif"), stack, pages());
+    const auto volume = open_volume(path("a.tif"));
+    volume->rewind();
+    volume->next_row();
+    std::filesystem::resize_file(path("a.tif"), 0);
+    const int rows = made_.counts[1] * made_.counts[2];
+    const auto read_on = [&] {
+      for (int row = 1; row < rows; ++row) volume->next_row();
+    };
+    EXPECT_ERROR(read_on(), InputOutput);
+  }
+}
+
 TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
   const auto cut = [](const std::string& bytes) {
     std::vector<std::string> all;

@@ -40,7 +40,8 @@ class TiffFile {
     TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most_));
     TIFFOpenOptionsSetErrorHandlerExtR(options, note_error, this);
     TIFFOpenOptionsSetWarningHandlerExtR(options, pass_over, nullptr);
-    tiff_ = TIFFOpenExt(path.c_str(), "r", options);
+    // Not mapped to memory: the process would be killed where the file cannot be read.
+    tiff_ = TIFFOpenExt(path.c_str(), "rm", options);
     TIFFOpenOptionsFree(options);
     if (tiff_ == nullptr) fail("is not a TIFF file");
   }
