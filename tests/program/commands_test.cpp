@@ -261,8 +261,9 @@ TEST_F(Commands, EndWithTheCodesOfTheirHelps) {
 TEST_F(Commands, ExamplesOfTheHelpsWork) {
   ASSERT_EQ(run("scan.ply first.ply -q -n 100 -d 6 --coefficients grain.json").exit_code, 0);
   fs::create_directory(folder_ / "scans");
-  write_mesh(read_mesh(path("first.ply")), path("scans/a.ply"));
-  write_mesh(read_mesh(path("scan.ply")), path("scans/b.stl"));
+  for (const char* name : {"scans/a.ply", "scans/b.stl", "scans/c.ply"}) {
+    write_mesh(read_mesh(path("scan.ply")), path(name));
+  }
   std::ofstream(folder_ / "more.txt") << "first.ply\n";
   for (const char* name : {"grain.ply", "grain.stl", "remesh.ply", "sample.stl"}) {
     write_mesh(read_mesh(path("first.ply")), path(name));
@@ -280,7 +281,6 @@ TEST_F(Commands, ExamplesOfTheHelpsWork) {
   for (int z = 0; z < 30; ++z) {
     test::write_bytes(folder_ / "slices" / (std::to_string(z) + ".tif"), test::tiff(volume, z, 1));
   }
-  write_mesh(read_mesh(path("first.ply")), path("scans/c.ply"));
   std::ofstream(folder_ / "clump.csv") << "x,y,z,r\n0,0,0,1\n0.9,0.3,0.2,0.7\n";
   std::ofstream(folder_ / "sieve.csv") << "1,0\n2,100\n";
   std::ofstream(folder_ / "supplier.csv") << "grain,feret_min,convexity\na,2,0.9\nb,3,0.8\n";

@@ -56,7 +56,7 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
        "Fit overlapping spheres to a grain, for engines that use clumps",
        {"scan.ply -k 20 -o clump.csv --report clump.html",
         "scan.ply --max-error 3 -o clump.multisphere -o clump.chrono.csv --size 0.01",
-        "scan.ply -k 50 --inside -o clump.py", "scans -k 10 -o run --size 0.02 --engine lammps"},
+        "scan.ply -k 20 --inside -o clump.py", "scans -k 10 -o run --size 0.02 --engine lammps"},
        "Mass, centre and inertia are the grain's. The report has the errors of the spheres' "
        "own values.\nwscvt describe clump.csv scan.ply measures a clump.",
        true,
