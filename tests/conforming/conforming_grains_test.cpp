@@ -424,6 +424,23 @@ TEST(ConformingGrains, StandInTheLatticeAlsoIfItIsLeftHandedAndItsVoxelsAreLong)
   EXPECT_ERROR(conform_grains(three_boxes(), 3, geometry, options, Execution(1)), InvalidInput);
 }
 
+TEST(ConformingGrains, LongVoxelsMakeNoLongEdgesAndLostVolumesAreTold) {
+  VolumeGeometry geometry;
+  geometry.axes = Vector3(1.9, 0.9, 0.7).asDiagonal();
+  const GrainVoxels voxels = random_cells(5, 24, 12, true, Between::NoisyGaps);
+  ConformingOptions options;
+  const ConformingGrains usual = conform_grains(voxels, 12, geometry, options, Execution(1));
+  EXPECT_LT(usual.volume_error, 1e-9);
+  EXPECT_TRUE(conforming_warnings(usual).empty());
+  options.edge_length = 3.0 * 1.9;
+  const ConformingGrains coarse = conform_grains(voxels, 12, geometry, options, Execution(1));
+  ASSERT_GT(coarse.volume_error, 0.1);
+  const std::vector<Sentence> warnings = conforming_warnings(coarse);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings[0].text().rfind("The volumes of the fragments err by up to 44", 0), 0U)
+      << warnings[0].text();
+}
+
 TEST(ConformingGrains, AreMeasuredAsByHand) {
   const ConformingGrains result = conformed(random_cells(4, 40, 9, true), 9);
   const auto length = [&](std::int32_t a, std::int32_t b) {

@@ -184,8 +184,16 @@ std::string intersecting(const ConformingGrains& grains, const std::vector<std::
 /// `kind`: of the bodies, such as "grain". `names`: theirs.
 std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::string& kind,
                                   const std::vector<std::string>& names, const Sentence& remedy) {
-  constexpr double least_angle = 5.0;  // degrees
+  constexpr double least_angle = 5.0;   // degrees
+  constexpr double most_error = 0.001;  // of a volume
   std::vector<Sentence> warnings;
+  if (grains.volume_error > most_error) {
+    warnings.push_back("The volumes of the " + kind + "s err by up to " +
+                       format_percent(grains.volume_error) +
+                       ", because their triangles are too large to be parted otherwise. Give a "
+                       "smaller " +
+                       mention(edge_length_option) + remedy);
+  }
   if (grains.intersections > 0) {
     warnings.push_back(std::to_string(grains.intersections) +
                        " pairs of triangles intersect, in thin parts of the " + kind + "s " +

@@ -197,7 +197,8 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   check_conforming_options(options);
   if (grains == 0) refuse("There is no grain to remesh.");
   const double voxel = longest_voxel_edge(geometry);
-  const double edge = options.edge_length > 0.0 ? options.edge_length : 3.0 * voxel;
+  const double size = portable::cbrt(geometry.voxel_volume());
+  const double edge = options.edge_length > 0.0 ? options.edge_length : std::max(voxel, 3.0 * size);
   if (edge < voxel) {
     refuse("The edge length " + format_number(edge) + " is below a voxel's edge, " +
            format_number(voxel) + ". Give a larger one by " + mention(edge_length_option) + ".");

@@ -19,7 +19,7 @@ namespace wscvt {
 
 /// Options of conform_grains and remesh_fragments.
 struct ConformingOptions {
-  double edge_length = 0.0;  ///< mean of all edges; length; 0: three voxels, or the grain's
+  double edge_length = 0.0;  ///< mean of all edges; length; 0: see conform_grains
   int nodes = 0;       ///< about so many of each grain, instead of edge_length; 0: as that says
   int smoothing = 20;  ///< of voxels: passes, see smoothed_surface
 };
@@ -70,14 +70,16 @@ struct ConformingGrains : WallComplex {
 /// filled, also pores of less than 64 voxels that several grains enclose. Gaps and parts a voxel
 /// wide between grains are noise of a segmentation that no mesh of longer edges can follow: they go
 /// to the grain beside them, see remove_thin_parts. Each grain becomes closed, manifold and
-/// outward, and has the volume of its voxels.
+/// outward, and has the volume of its voxels. If triangles are too large to be parted without a
+/// change of volumes, the volumes give way; `volume_error` is then not near 0.
 ///
-/// The edges are even along walls and lines. Their mean is the wanted length if the grains are
-/// large against it; a grain whose volume is that of a cube of less than two edges along a side has
-/// shorter ones. With `nodes` each grain has its own edge length, at a wall the geometric mean of
-/// both; a wall's nodes count for both grains, so the numbers are only near the wanted one, and no
-/// edges are below a voxel's. Walls and lines narrower than a quarter of an edge vanish; the grains
-/// touch in a line or point there. Triangles that intersect are parted as finish_walls says;
+/// The edges are even along walls and lines. Their mean is the wanted length (by default three
+/// edges of a cube of a voxel's volume, or a voxel's longest edge if that is longer) if the grains
+/// are large against it; a grain whose volume is that of a cube of less than two edges along a side
+/// has shorter ones. With `nodes` each grain has its own edge length, at a wall the geometric mean
+/// of both; a wall's nodes count for both grains, so the numbers are only near the wanted one, and
+/// no edges are below a voxel's. Walls and lines narrower than a quarter of an edge vanish; the
+/// grains touch in a line or point there. Triangles that intersect are parted as finish_walls says;
 /// `intersections` counts those that are left, usually at contacts of few faces of voxels. The
 /// result does not depend on the number of threads. Throws Error: InvalidInput without grains, for
 /// a grain without voxels, and for an edge length below a voxel's; NumericalFailure as
