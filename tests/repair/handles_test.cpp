@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
 
 #include "grains/bent_grain.h"
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
+#include "support/voxel_body.h"
 #include "wscvt/base/error.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/sphere/sphere_triangulation.h"
@@ -121,6 +123,35 @@ TEST(Handles, CutsTheShortestFirst) {
   EXPECT_TRUE(is_at(0, Vector3::UnitX(), 1.0) || is_at(1, Vector3::UnitX(), 1.0));
   EXPECT_TRUE(is_at(0, -Vector3::UnitX(), 0.7) || is_at(1, -Vector3::UnitX(), 0.7));
   EXPECT_TRUE(is_at(2, -Vector3::UnitZ(), 1.0));
+}
+
+TEST(Handles, AreTheSameInAnyOrderOfTheScan) {
+  // A ball of voxels with pores, whose corners are moved so that no two loops are equally long.
+  IndexedMesh porous = test::voxel_body(24, [](int x, int y, int z) {
+    const Vector3 p(x - 11.3, y - 11.6, z - 12.1);
+    const double wave = std::sin(1.1 * p.x() + 0.4 * p.y()) + std::sin(0.9 * p.y() - 0.5 * p.z()) +
+                        std::sin(1.2 * p.z() + 0.3 * p.x());
+    return p.norm() < 10.0 && wave < 0.8;
+  });
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> step(-0.2, 0.2);
+  for (Vector3& point : porous.points) {
+    for (Eigen::Index k = 0; k < 3; ++k) point[k] += step(engine);
+  }
+  const IndexedMesh scan = check_mesh(porous, {}, Execution(1)).mesh;
+  ASSERT_GT(genus_of(scan), 30U);
+  const HandleReport given = remove_handles(scan, HandleOptions(), Execution(1)).report;
+  ASSERT_GT(given.cut.size(), 30U);
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const HandleReport other =
+        remove_handles(test::shuffled(scan, seed), HandleOptions(), Execution(1)).report;
+    EXPECT_EQ(other.kept, given.kept) << seed;
+    EXPECT_NEAR(other.next.length, given.next.length, 1e-9) << seed;
+    ASSERT_EQ(other.cut.size(), given.cut.size()) << seed;
+    for (std::size_t k = 0; k < given.cut.size(); ++k) {
+      EXPECT_NEAR(other.cut[k].length, given.cut[k].length, 1e-9) << seed << ", " << k;
+    }
+  }
 }
 
 TEST(Handles, ARingKeepsItsHoleBelowTheLimit) {

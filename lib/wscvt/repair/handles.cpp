@@ -26,8 +26,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr const char* handle_stage = "Cutting handles";
 
-/// Maximum number of places for the search of a shortest loop; every handle has two.
-constexpr std::size_t maximum_roots = 64;
+/// About so many vertices are visited at most to choose places for a search of the whole mesh, and
+/// again in these searches, but in at least a few of them.
+constexpr std::size_t most_visited = 500'000;
+constexpr std::size_t fewest_searched = 8;
 /// Steps of fairing, each half way to the mean of the neighbours. After five steps the caps are
 /// most of an edge apart; more steps would thin the stumps.
 constexpr int fairing_steps = 5;
@@ -41,7 +43,11 @@ struct Loop {
 /// The tree of shortest paths from a root, and the cotree of the remaining edges.
 class TreeCotree {
  public:
-  TreeCotree(const IndexedMesh& mesh, const HalfEdges& links) : mesh_(mesh), links_(links) {}
+  TreeCotree(const IndexedMesh& mesh, const HalfEdges& links)
+      : mesh_(mesh),
+        links_(links),
+        distances_(mesh.points.size(), infinity),
+        parents_(mesh.points.size(), -1) {}
 
   /// Returns loops through the root's tree that do not separate the surface, of length at most 2
   /// `reach` before the common path is removed. They are independent; without a bound there are two
@@ -84,6 +90,41 @@ class TreeCotree {
     return result;
   }
 
+  /// Returns a length below which `loops` finds no loop; infinite if it finds none. Looks only at
+  /// vertices within reach, as if all faces beyond them were one.
+  double least_length(std::int32_t root, double reach) {
+    grow_tree(root, reach);
+    std::vector<std::pair<double, std::int32_t>> candidates;
+    std::vector<std::int32_t> faces = {-1};  // -1: all that are beyond
+    for (const std::int32_t v : reached_) {
+      visit_outgoing(links_.opposite, links_.first[v], [&](std::int32_t h) {
+        const std::int32_t to = target(h);
+        if (is_within(h / 3) && corner_of(h / 3) == v) faces.push_back(h / 3);
+        if (to < v || !(distances_[to] < infinity)) return;
+        if (parents_[to] == h || parents_[v] == links_.opposite[h]) return;
+        candidates.emplace_back(distances_[v] + distances_[to] + edge_length(h), h);
+      });
+    }
+    std::sort(faces.begin(), faces.end());
+    std::sort(candidates.begin(), candidates.end(), std::greater<>());
+    boost::disjoint_sets_with_storage<> joined(faces.size());
+    const auto place = [&](std::int32_t face) {
+      if (!is_within(face)) return std::size_t{0};
+      return index(std::lower_bound(faces.begin(), faces.end(), face) - faces.begin());
+    };
+    double least = infinity;
+    for (const auto& [length, h] : candidates) {
+      const std::size_t a = joined.find_set(place(h / 3));
+      const std::size_t b = joined.find_set(place(links_.opposite[h] / 3));
+      if (a != b) {
+        joined.link(a, b);
+      } else {
+        least = std::min(least, loop_through(h).length);
+      }
+    }
+    return least;
+  }
+
  private:
   std::int32_t origin(std::int32_t h) const { return origin_of(mesh_.triangles, h); }
   std::int32_t target(std::int32_t h) const { return target_of(mesh_.triangles, h); }
@@ -91,9 +132,22 @@ class TreeCotree {
     return (mesh_.points[target(h)] - mesh_.points[origin(h)]).norm();
   }
 
+  /// Whether all corners of a face are within reach.
+  bool is_within(std::int32_t face) const {
+    const Triangle& t = mesh_.triangles[face];
+    return std::all_of(t.begin(), t.end(), [&](auto v) { return distances_[v] < infinity; });
+  }
+  std::int32_t corner_of(std::int32_t face) const {
+    const Triangle& t = mesh_.triangles[face];
+    return *std::min_element(t.begin(), t.end());
+  }
+
   void grow_tree(std::int32_t root, double reach) {
-    distances_.assign(mesh_.points.size(), infinity);
-    parents_.assign(mesh_.points.size(), -1);
+    for (const std::int32_t v : reached_) {
+      distances_[v] = infinity;
+      parents_[v] = -1;
+    }
+    reached_.assign(1, root);
     using Entry = std::pair<double, std::int32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     distances_[root] = 0.0;
@@ -108,6 +162,7 @@ class TreeCotree {
         const std::int32_t w = target(h);
         const double longer = distance + edge_length(h);
         if (longer < distances_[w] && longer <= reach) {
+          if (parents_[w] < 0) reached_.push_back(w);
           distances_[w] = longer;
           parents_[w] = h;
           queue.emplace(longer, w);
@@ -142,6 +197,7 @@ class TreeCotree {
   const HalfEdges& links_;
   std::vector<double> distances_;
   std::vector<std::int32_t> parents_;  ///< half-edge that leads to each vertex, -1 at the root
+  std::vector<std::int32_t> reached_;  ///< vertices
 };
 
 /// Returns the first of the shortest loops.
@@ -151,33 +207,48 @@ const Loop* shortest_of(const std::vector<Loop>& loops) {
   return shortest == loops.end() ? nullptr : &*shortest;
 }
 
-/// Returns the shortest loop that searches from all handles find.
+/// Returns the shortest loop that does not separate the surface. A loop that crosses none of the
+/// independent loops separates, so that the shortest passes one of their vertices.
 Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution& execution) {
-  std::vector<Loop> found =
-      TreeCotree(mesh, links).loops(0, infinity, [&] { execution.report(0.0, handle_stage); });
-  // Every handle has a loop here, but found from afar. The next search starts on it.
-  std::vector<std::int32_t> roots;
-  for (const Loop& loop : found) {
-    for (const std::size_t k : {std::size_t{0}, loop.half_edges.size() / 2}) {
-      roots.push_back(origin_of(mesh.triangles, loop.half_edges[k]));
-    }
-  }
-  std::sort(roots.begin(), roots.end());
-  roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
-  if (roots.size() > maximum_roots) roots.resize(maximum_roots);
+  TreeCotree tree(mesh, links);
+  const auto rest = [&] { execution.report(0.0, handle_stage); };
+  const std::vector<Loop> found = tree.loops(0, infinity, rest);
   const Loop* const first = shortest_of(found);
   if (first == nullptr) return {};
-  std::vector<Loop> candidates(roots.size() + 1);
-  candidates.back() = *first;
-  const double reach = 0.5 * first->length;
-  execution.parallel_for(roots.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::vector<Loop> loops = TreeCotree(mesh, links).loops(roots[i], reach, [] {});
+  std::vector<std::int32_t> all;
+  for (const Loop& loop : found) {
+    for (const std::int32_t h : loop.half_edges) all.push_back(origin_of(mesh.triangles, h));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const std::size_t most = std::max(fewest_searched, most_visited / mesh.points.size());
+  Loop best = *first;
+  std::vector<std::pair<double, std::int32_t>> bounds;
+  // Short loops are sought first, because they need few vertices.
+  for (std::size_t part = 32; part > 0 && 2 * part * best.length > first->length; part /= 2) {
+    const double length = first->length / static_cast<double>(part);
+    // About as many vertices are within half a loop as the square of its edges.
+    const std::size_t edges = first->half_edges.size() / part;
+    const std::size_t stride = 1 + all.size() * edges * edges / most_visited;
+    bounds.resize((all.size() + stride - 1) / stride);
+    constexpr std::size_t block = 256;
+    execution.parallel_for(bounds.size(), block, [&](std::size_t begin, std::size_t end) {
+      TreeCotree near(mesh, links);
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::int32_t root = all[i * stride];
+        bounds[i] = {near.least_length(root, 0.5 * length), root};
+      }
+    });
+    std::sort(bounds.begin(), bounds.end());
+    for (std::size_t i = 0; i < std::min(bounds.size(), most); ++i) {
+      const auto& [least, root] = bounds[i];
+      if (!(least < best.length)) break;
+      const std::vector<Loop> loops = tree.loops(root, 0.5 * length, rest);
       const Loop* const shortest = shortest_of(loops);
-      if (shortest != nullptr) candidates[i] = *shortest;
+      if (shortest != nullptr && shortest->length < best.length) best = *shortest;
     }
-  });
-  return *shortest_of(candidates);
+  }
+  return best;
 }
 
 /// Cuts along the loop and caps both sides. Returns the vertices of the rings and caps.

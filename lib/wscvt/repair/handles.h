@@ -22,11 +22,13 @@ struct HandleFreeMesh {
 /// are not above the limit. The other handles stay. Cuts each handle along a short loop that does
 /// not separate the surface, and caps both sides. If the loop runs round a bridge, this cuts the
 /// bridge; if it runs round a tunnel, this closes the tunnel. The two caps coincide at first. Each
-/// is faired towards the surface on its own side, so that they separate. Loops come from
-/// tree-cotree decompositions (Eppstein 2003, "Dynamic generators of topologically embedded
-/// graphs"; Erickson and Whittlesey 2005, "Greedy optimal homotopy and homology generators") about
-/// the places where a first decomposition finds handles, the shortest loops first. The report has
-/// the shortest loop that stays. Returns a mesh of genus 0 unchanged.
+/// is faired towards the surface on its own side, so that they separate. The
+/// shortest loop of the mesh is cut first, then the shortest of what is left, so that the order of
+/// the faces does not matter. Loops come from tree-cotree decompositions (Eppstein 2003, "Dynamic
+/// generators of topologically embedded graphs"; Erickson and Whittlesey 2005, "Greedy optimal
+/// homotopy and homology generators"). On fine scans, where loops have more than about
+/// 20 edges, one that is a little longer than the shortest may be taken. The report has the
+/// shortest loop that stays. Returns a mesh of genus 0 unchanged.
 ///
 /// Throws Error(InvalidInput) if an option is out of range, the mesh is not closed or it has more
 /// than most_handles_cut handles; Error(Cancelled).
