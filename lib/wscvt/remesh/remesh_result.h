@@ -43,7 +43,8 @@ struct RemeshResult {
   std::vector<double> radial_distances;  ///< |vertex - centre|, length
   std::vector<double> curvatures;  ///< largest absolute principal curvature, 1/length; if asked for
   /// Surface area of each node's cell, length^2: on the scan its Voronoi cell on the remesh, as
-  /// published its power cell, projected to the surface. On the scan the sum is the remesh's area.
+  /// published its flat power cell (see PowerCells), projected to the surface. On the scan the sum
+  /// is the remesh's area; as published it is smaller than the surface, by 2 / N of it on a sphere.
   /// Node tables have the area that a node stands for, a third of its triangles (vertex_areas).
   std::vector<double> cell_areas;
   /// Signed distance from the scan to each node, positive outside of it, length; if asked for.

@@ -13,7 +13,9 @@ namespace wscvt {
 struct PowerCells {
   std::vector<Vector3> vertices;   ///< per triangle: the radical centre of its sites
   std::vector<Vector3> centroids;  ///< per site: of its cell, moved to the site's tangent plane
-  std::vector<double> areas;       ///< per site: signed, solid angle
+  /// Per site: signed, of the flat fan, seen along the site; the solid angle less about 2 /
+  /// (number of sites) of it; steradian.
+  std::vector<double> areas;
 };
 
 /// Computes the cells of `sites`, unit vectors, under `triangulation` (the paper, eqs. 6 to 9).

@@ -17,7 +17,7 @@ namespace wscvt {
 struct RelaxationResult {
   std::vector<Vector3> seeds;         ///< unit vectors, in the order given
   SphereTriangulation triangulation;  ///< the regular one of the seeds and their weights
-  std::vector<double> cell_areas;     ///< solid angles
+  std::vector<double> cell_areas;     ///< see PowerCells::areas
   RelaxationReport report;
 };
 
