@@ -55,9 +55,9 @@ inline constexpr NumberOption<int> smoothing_option = {
 /// keep their two sides (Gibson 1998, Constrained elastic surface nets). Then the mesh is scaled
 /// about its centroid to exactly the volume of the voxels inside the surface.
 ///
-/// Each face gives two triangles, along the shorter diagonal. If two edges have the same two
-/// vertices, each gets one more, in its middle. Throws Error(NumericalFailure) if too little volume
-/// is left inside for scaling.
+/// Each face gives two triangles, along the diagonal that is shorter in voxels. If two edges have
+/// the same two vertices, each gets one more, in its middle. Throws Error(NumericalFailure) if too
+/// little volume is left inside for scaling.
 IndexedMesh smoothed_surface(const VoxelSurface& surface, int passes,
                              const VolumeGeometry& geometry);
 
