@@ -389,6 +389,9 @@ class PartFinder {
       add_part(std::move(part));
       ++found;
     }
+    if (found == 0 && cells.lying.front() >= 0) {
+      refuse_unclear(piece.mesh, cells, cells.lying.front());
+    }
     if (found == 0) return false;
     Part around = part_of(static_cast<std::int32_t>(outside), cells, piece.source, extractor);
     for (Triangle& t : around.mesh.triangles) std::swap(t[1], t[2]);

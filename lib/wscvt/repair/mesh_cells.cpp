@@ -6,6 +6,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -142,7 +143,9 @@ void take_faces_once(const IndexedMesh& mesh, MeshCells& cells) {
 
 class CellFinder {
  public:
-  CellFinder(const IndexedMesh& mesh, const Execution& execution) : points_(mesh.points) {
+  /// `fold`: see are_bodies. `pairs_all`: also where no faces lie on each other.
+  CellFinder(const IndexedMesh& mesh, double fold, bool pairs_all, const Execution& execution)
+      : points_(mesh.points), fold_(fold), pairs_all_(pairs_all) {
     IndexedMesh aligned = mesh;
     align_diagonals(aligned, execution);
     take_faces_once(aligned, cells_);
@@ -159,6 +162,7 @@ class CellFinder {
       }
     }
     rounding_ = 1e-11 * (high - low).norm();
+    is_oriented_ = find_orientation(low);
   }
 
   MeshCells run() {
@@ -186,6 +190,27 @@ class CellFinder {
     }
     find_solids();
     return std::move(cells_);
+  }
+
+  /// As run; faces with one region on both sides lie on others, because none is open.
+  MeshCells run_in_doubt() {
+    MeshCells cells = run();
+    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+      std::int32_t& lying = cells.lying[index(piece_of_[f])];
+      if (cells.before(f) == cells.behind(f) && lying < 0) lying = static_cast<std::int32_t>(3 * f);
+    }
+    return cells;
+  }
+
+  bool is_oriented() const { return is_oriented_; }
+
+  /// Whether no face has the outside on the side of its body.
+  bool keeps_bodies(const MeshCells& cells) const {
+    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
+      const std::int32_t body = looks_inward_ ? cells.before(f) : cells.behind(f);
+      if (cells.reverse[f] < 0 && cells.list[index(body)].is_outside) return false;
+    }
+    return true;
   }
 
  private:
@@ -229,11 +254,6 @@ class CellFinder {
     const Vector3 axis = (points_[index(std::max(a, b))] - low).normalized();
     const Vector3 x = axis.unitOrthogonal();
     const Vector3 y = axis.cross(x);
-    struct Turn {
-      double angle;
-      double error;
-      std::int32_t half_edge;
-    };
     std::vector<Turn> turns;
     for (const std::int32_t h : edge) {
       const Vector3 d = points_[index(origin_of(cells_.faces, previous_half_edge(h)))] - low;
@@ -244,15 +264,140 @@ class CellFinder {
     std::sort(turns.begin(), turns.end(), [](const Turn& s, const Turn& t) {
       return s.angle != t.angle ? s.angle < t.angle : s.half_edge < t.half_edge;
     });
+    bool is_clear = true;
+    bool has_folds = false;
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      const bool is_last = i + 1 == turns.size();
-      const Turn& next = turns[is_last ? 0 : i + 1];
-      const double gap = next.angle - turns[i].angle + (is_last ? 2.0 * pi : 0.0);
-      if (!(gap > turns[i].error + next.error)) return false;
+      const double gap = gap_behind(turns, i);
+      is_clear = is_clear && gap > turns[i].error + next_of(turns, i).error;
+      has_folds = has_folds || gap < fold_;
     }
+    if (is_oriented_ && (has_folds || pairs_all_) && unite_bodies(turns, sides)) return true;
+    if (!is_clear) return false;
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      const Turn& next = turns[i + 1 == turns.size() ? 0 : i + 1];
-      sides.unite(growing(turns[i].half_edge), shrinking(next.half_edge));
+      sides.unite(growing(turns[i].half_edge), shrinking(next_of(turns, i).half_edge));
+    }
+    return true;
+  }
+
+  /// A face on an edge, at its angle about it.
+  struct Turn {
+    double angle;
+    double error;
+    std::int32_t half_edge;
+  };
+
+  static const Turn& next_of(const std::vector<Turn>& turns, std::size_t i) {
+    return turns[i + 1 == turns.size() ? 0 : i + 1];
+  }
+
+  static double gap_behind(const std::vector<Turn>& turns, std::size_t i) {
+    return next_of(turns, i).angle - turns[i].angle + (i + 1 == turns.size() ? 2.0 * pi : 0.0);
+  }
+
+  /// A body at an edge, from the face where it begins to the one where it ends.
+  struct Wedge {
+    std::int32_t begin;
+    std::int32_t end;
+    double angle;  // of the face where it begins
+    double width;  // 0 to 2 pi
+  };
+
+  static double overlap(const Wedge& a, const Wedge& b) {
+    const double apart = b.angle < a.angle ? b.angle - a.angle + 2.0 * pi : b.angle - a.angle;
+    return std::clamp(a.width - apart, 0.0, b.width) +
+           std::clamp(apart + b.width - 2.0 * pi, 0.0, a.width);
+  }
+
+  /// Whether faces of one body do not lie on each other but for `fold_`, and bodies hardly overlap.
+  bool are_bodies(const std::vector<Wedge>& wedges) const {
+    for (std::size_t i = 0; i < wedges.size(); ++i) {
+      if (!(std::min(wedges[i].width, 2.0 * pi - wedges[i].width) >= fold_)) return false;
+      for (std::size_t k = 0; k < i; ++k) {
+        const double least = std::min(wedges[i].width, wedges[k].width);
+        if (overlap(wedges[i], wedges[k]) > 0.4 * least) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Pairs the faces on an edge of surfaces that look outward: each body has two. Returns nothing
+  /// if there is no such way.
+  std::vector<Wedge> bodies_at(const std::vector<Turn>& turns) const {
+    std::vector<Turn> begins;
+    std::vector<Turn> ends;
+    for (const Turn& turn : turns) {
+      const bool is_begin = is_forward(turn.half_edge) == looks_inward_;
+      if (is_wall(turn.half_edge) || is_begin) begins.push_back(turn);
+      if (is_wall(turn.half_edge) || !is_begin) ends.push_back(turn);
+    }
+    constexpr std::size_t most_bodies = 6;
+    if (begins.size() > most_bodies) return {};
+    std::vector<std::size_t> order(ends.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<Wedge> best;
+    double least = std::numeric_limits<double>::infinity();
+    do {
+      std::vector<Wedge> wedges;
+      double sum = 0.0;
+      for (std::size_t k = 0; k < begins.size(); ++k) {
+        const Turn& end = ends[order[k]];
+        const double width = end.angle - begins[k].angle;
+        wedges.push_back({begins[k].half_edge, end.half_edge, begins[k].angle,
+                          width < 0.0 ? width + 2.0 * pi : width});
+        sum += wedges.back().width;
+      }
+      if (!(sum < least) || !are_bodies(wedges)) continue;
+      least = sum;
+      best = std::move(wedges);
+    } while (std::next_permutation(order.begin(), order.end()));
+    std::sort(best.begin(), best.end(), [](const Wedge& a, const Wedge& b) {
+      const auto middle = [](const Wedge& w) {
+        const double angle = w.angle + 0.5 * w.width;
+        return angle > pi ? angle - 2.0 * pi : angle;
+      };
+      return middle(a) < middle(b);
+    });
+    return best;
+  }
+
+  /// Whether two bodies share a face.
+  bool is_wall(std::int32_t h) const { return cells_.reverse[face_of(h)] >= 0; }
+
+  /// Unites the sides of each body on an edge, and those of the gaps between. Returns false if the
+  /// faces do not tell the bodies.
+  bool unite_bodies(const std::vector<Turn>& turns, Sets& sides) const {
+    const std::vector<Wedge> bodies = bodies_at(turns);
+    const auto next = [&](std::size_t k) { return bodies[k + 1 == bodies.size() ? 0 : k + 1]; };
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      const std::int32_t begin = next(k).begin;
+      if (bodies[k].end != begin && (is_wall(bodies[k].end) || is_wall(begin))) return false;
+    }
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      const std::int32_t begin = next(k).begin;
+      sides.unite(growing(bodies[k].begin), shrinking(bodies[k].end));
+      if (bodies[k].end != begin) sides.unite(growing(bodies[k].end), shrinking(begin));
+    }
+    return !bodies.empty();
+  }
+
+  /// Returns whether the faces on each edge look to both directions equally often, as those of
+  /// closed surfaces that all look outward, or inward.
+  bool find_orientation(const Vector3& origin) {
+    double volume = 0.0;
+    for (std::size_t f = 0; f < cells_.faces.size(); ++f) {
+      const Triangle& t = cells_.faces[f];
+      if (cells_.reverse[f] >= 0) continue;
+      volume += six_volumes(points_[index(t[0])] - origin, points_[index(t[1])] - origin,
+                            points_[index(t[2])] - origin);
+    }
+    looks_inward_ = volume < 0.0;
+    for (std::size_t h = 0; h < rings_.size(); ++h) {
+      if (!is_first(h)) continue;
+      int sum = 0;
+      for (const std::int32_t g : faces_on(static_cast<std::int32_t>(h))) {
+        if (cells_.reverse[face_of(g)] < 0) sum += is_forward(g) ? 1 : -1;
+      }
+      if (sum != 0) return false;
     }
     return true;
   }
@@ -355,12 +500,23 @@ class CellFinder {
   std::vector<std::int32_t> piece_of_;  // of every face
   std::vector<std::int32_t> outside_;   // of every piece
   double rounding_ = 0.0;               // of positions, length
+  double fold_;                         // see are_bodies, radians
+  bool pairs_all_;
+  bool is_oriented_ = false;  // see find_orientation
+  bool looks_inward_ = false;
 };
 
 }  // namespace
 
 MeshCells find_mesh_cells(const IndexedMesh& mesh, const Execution& execution) {
-  return CellFinder(mesh, execution).run();
+  // Single precision; walls of several corners, each cut by itself, which cross a little.
+  for (const double fold : {1e-3, 0.35}) {
+    CellFinder finder(mesh, fold, fold > 0.1, execution);
+    MeshCells cells = finder.run();
+    if (!finder.is_oriented() || finder.keeps_bodies(cells)) return cells;
+  }
+  CellFinder finder(mesh, 0.0, false, execution);
+  return finder.run_in_doubt();
 }
 
 }  // namespace wscvt

@@ -49,9 +49,11 @@ struct MeshCells {
 
 /// Finds the regions by walking about each edge: of the faces on it, sorted by their angles, each
 /// bounds a region together with the next. So a wall has two sides, whatever its direction, and
-/// surfaces that touch in an edge are told apart. An edge with one face joins its two sides. Edges
-/// with faces in one direction are left out; if a region is not closed without them, its piece is
-/// unclear. `mesh` is welded, with faces of three different corners.
+/// surfaces that touch in an edge are told apart. An edge with one face joins its two sides. Where
+/// faces lie on each other, or cross a little, and all surfaces are closed and look outward, the
+/// faces of each body are paired instead. Edges with faces in one direction are else left out; if a
+/// region is not closed without them, its piece is unclear. `mesh` is welded, with faces of three
+/// different corners.
 MeshCells find_mesh_cells(const IndexedMesh& mesh, const Execution& execution);
 
 }  // namespace wscvt
