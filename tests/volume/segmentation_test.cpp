@@ -912,6 +912,35 @@ TEST_F(SegmentationOfAFile, DoubtsOneGrainAndDarkGrains) {
   EXPECT_TRUE(has(segmented(), "darker than the rest"));
 }
 
+// A rising background, as of drift or beam hardening, makes peaks of its own and grains too large.
+TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
+  const auto doubts = [&](Label rise) {
+    made_ = MadeVolume({48, 30, 26});
+    std::mt19937_64 engine(test::announced(7));
+    std::normal_distribution<double> noise(0.0, 4.0);
+    for (std::int32_t z = 0; z < 26; ++z) {
+      for (std::int32_t y = 0; y < 30; ++y) {
+        for (std::int32_t x = 0; x < 48; ++x) {
+          const Vector3 p(x, y, z);
+          const bool is_grain =
+              (p - Vector3(12, 14, 13)).norm() < 8.0 || (p - Vector3(33, 16, 12)).norm() < 8.0;
+          made_.at(x, y, z) = static_cast<Label>((is_grain ? 1600.0 : 600.0) +
+                                                 10.0 * noise(engine) + rise * x / 48.0);
+        }
+      }
+    }
+    write_made();
+    std::string text;
+    for (const std::string& line : segmentation_lines(segmented())) text += line + "\n";
+    return text;
+  };
+  EXPECT_EQ(doubts(0).find("grey values from"), std::string::npos);
+  EXPECT_EQ(doubts(150).find("grey values from"), std::string::npos);
+  const std::string text = doubts(600);
+  EXPECT_NE(text.find("white_tophat"), std::string::npos) << text;
+  EXPECT_EQ(text.find("as of several minerals"), std::string::npos) << text;
+}
+
 // All sides are flat, and the block crosses the volume as a container does.
 TEST_F(SegmentationOfAFile, TakesNoSpaceBetweenDarkGrainsForAWall) {
   made_ = MadeVolume({40, 24, 24});

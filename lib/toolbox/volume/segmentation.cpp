@@ -409,6 +409,56 @@ bool leave_out_wall(const std::vector<std::uint8_t>& mask, const VolumeGeometry&
   return true;
 }
 
+/// Returns the grey values of the void in parts of the volume, the least and the largest but for a
+/// sixteenth of them; equal ones if there are few parts.
+std::pair<double, double> space_in_parts(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& mask,
+                                         const std::vector<std::uint8_t>& left_out,
+                                         const VoxelCounts& sizes) {
+  constexpr std::size_t along = 4;
+  constexpr std::size_t fewest_voxels = 64;
+  std::array<std::vector<std::uint16_t>, along * along * along> parts;
+  const auto at = [&](std::size_t place, std::size_t axis) {
+    return place * along / static_cast<std::size_t>(sizes[axis]);
+  };
+  const auto width = static_cast<std::size_t>(sizes[0]);
+  const auto height = static_cast<std::size_t>(sizes[1]);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (mask[k] != 0 || (!left_out.empty() && left_out[k] != 0)) continue;
+    const std::size_t row = k / width;
+    parts[(at(row / height, 2) * along + at(row % height, 1)) * along + at(k % width, 0)].push_back(
+        grey[k]);
+  }
+  std::vector<double> medians;
+  for (std::vector<std::uint16_t>& part : parts) {
+    if (part.size() < fewest_voxels) continue;
+    const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
+    std::nth_element(part.begin(), middle, part.end());
+    medians.push_back(*middle);
+  }
+  if (medians.size() < along) return {0.0, 0.0};
+  std::sort(medians.begin(), medians.end());
+  const std::size_t few = medians.size() / 16;
+  return {medians[few], medians[medians.size() - 1 - few]};
+}
+
+/// Notes the grey values of the void in parts of the volume if they differ by much of the contrast.
+void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
+                const std::vector<std::uint8_t>& left_out, const VoxelCounts& sizes,
+                const std::vector<GreyPeak>& peaks, Segmentation& result) {
+  constexpr double much = 0.3;
+  const double level = (result.threshold - values.base) / values.step;
+  const auto upper = std::find_if(peaks.begin(), peaks.end(), [&](const GreyPeak& peak) {
+    return static_cast<double>(peak.value) > level;
+  });
+  if (upper == peaks.begin() || upper == peaks.end()) return;
+  const auto contrast = static_cast<double>(upper->value - (upper - 1)->value);
+  const auto [darkest, brightest] = space_in_parts(values.grey, mask, left_out, sizes);
+  if (!(brightest - darkest > much * contrast)) return;
+  result.darkest_space = values.base + values.step * darkest;
+  result.brightest_space = values.base + values.step * brightest;
+}
+
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
 /// given, and the peaks of `result`. `left_out`: what was not scanned, to which the wall of a
 /// container is added.
@@ -445,6 +495,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     counts = counts_of(grey, left_out, sizes, has_noise);
     find_material();
   }
+  note_space(values, mask, left_out, sizes, peaks, result);
   for (const GreyPeak& peak : peaks) {
     result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }

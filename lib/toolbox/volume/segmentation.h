@@ -85,7 +85,11 @@ struct Segmentation {
   bool is_chosen = false;           ///< the options have a threshold or a number of phases
   double threshold = 0.0;           ///< as used
   std::vector<double> peaks;        ///< grey values of the histogram's peaks; empty for a mask
-  double blur = 0.0;                ///< of the edges at the threshold, a standard deviation, voxels
+  /// Grey values of the void in parts of the volume, the least and the largest but for few, if they
+  /// differ by much of the contrast; else 0.
+  double darkest_space = 0.0;
+  double brightest_space = 0.0;
+  double blur = 0.0;  ///< of the edges at the threshold, a standard deviation, voxels
   /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
   std::vector<EdgeSteps> steps;
   int medians = 1;                ///< so often the grey values were smoothed; more for noise

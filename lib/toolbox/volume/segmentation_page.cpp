@@ -274,32 +274,25 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
 
 }  // namespace
 
-std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
-  std::vector<Sentence> doubts;
-  if (segmentation.is_flat) {
-    doubts.push_back(
-        "Most voxels have the value of their neighbour: these may be labels already. wscvt batch "
-        "and extract read labels directly.");
-  }
-  constexpr double much = 0.05;
-  // Grains at the border of what was scanned leave some of it open.
-  constexpr double full = 0.85;
-  const bool is_inverted =
-      segmentation.filled > 0 &&
-      share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
-  if (is_inverted) {
-    doubts.push_back("The material fills the volume, with holes of " +
-                     format_percent(share_of(segmentation.filled, segmentation.material)) +
-                     " of it: the grains seem to be " +
-                     (segmentation.is_dark
-                          ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
-                          : "darker than the rest. Give " + mention("dark", "true") + "."));
+/// Adds a doubt on the grey values of void and material.
+void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<Sentence>& doubts) {
+  const bool is_uneven = !is_inverted && segmentation.brightest_space > segmentation.darkest_space;
+  if (is_uneven) {
+    doubts.push_back("The space between the grains has grey values from " +
+                     format_number(segmentation.darkest_space, 4) + " to " +
+                     format_number(segmentation.brightest_space, 4) +
+                     " in parts of the volume, so that no threshold serves all of them. Correct "
+                     "beam hardening or drift in the reconstruction, or take the background away, "
+                     "in Python by scipy.ndimage." +
+                     (segmentation.is_dark ? "black_tophat" : "white_tophat") +
+                     "(scan, SIZE) with a SIZE above the largest grain's, in voxels.");
   }
   // Who chose the material has seen the peaks. Of inverted grains they are not the grains', and
   // of layers more is told.
-  const std::size_t peaks = segmentation.is_chosen || is_inverted || are_of_layers(segmentation)
-                                ? 0
-                                : segmentation.peaks.size();
+  const std::size_t peaks =
+      segmentation.is_chosen || is_inverted || is_uneven || are_of_layers(segmentation)
+          ? 0
+          : segmentation.peaks.size();
   if (peaks == 1) {
     doubts.push_back("The grey values have one peak, at " +
                      format_number(segmentation.peaks[0], 4) +
@@ -322,6 +315,30 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
                      mention("phases", "1") + ".");
   }
+}
+
+std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
+  std::vector<Sentence> doubts;
+  if (segmentation.is_flat) {
+    doubts.push_back(
+        "Most voxels have the value of their neighbour: these may be labels already. wscvt batch "
+        "and extract read labels directly.");
+  }
+  constexpr double much = 0.05;
+  // Grains at the border of what was scanned leave some of it open.
+  constexpr double full = 0.85;
+  const bool is_inverted =
+      segmentation.filled > 0 &&
+      share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
+  if (is_inverted) {
+    doubts.push_back("The material fills the volume, with holes of " +
+                     format_percent(share_of(segmentation.filled, segmentation.material)) +
+                     " of it: the grains seem to be " +
+                     (segmentation.is_dark
+                          ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
+                          : "darker than the rest. Give " + mention("dark", "true") + "."));
+  }
+  add_peaks(segmentation, is_inverted, doubts);
   if (!is_inverted) add_biases(segmentation, doubts);
   if (segmentation.medians > 1) {
     doubts.push_back("The noise is strong: the grey values were smoothed " +
