@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -838,6 +839,28 @@ TEST_F(TiffVolume, ReadsSlicesOfHexadecimalNumbers) {
   write_tiff(path("slices/rec10a.tif"), as(), {page(3)});
   expect_made("slices");
   EXPECT_NE(notes("slices")[0].find("rec10a"), std::string::npos) << notes("slices")[0];
+}
+
+// Capitals do not count, and what the sentences advise works.
+TEST_F(TiffVolume, OrdersSlicesWhateverTheirCapitalsAndSaysWhyAFolderIsNoVolume) {
+  const auto write_slices = [&](int count, const std::function<std::string(int)>& name) {
+    fs::remove_all(path("slices"));
+    fs::create_directories(path("slices/inner"));
+    for (int z = 0; z < count; ++z) write_tiff(path("slices/" + name(z)), as(), {page(z % 3)});
+  };
+  write_slices(3, [](int z) { return (z % 2 == 0 ? "s" : "S") + std::to_string(z) + ".tif"; });
+  expect_made("slices");
+  const std::string whole = "whole numbers from 0 on, in their order";
+  write_slices(8, [](int z) { return "s" + std::to_string(z - 4) + ".tif"; });
+  expect_refused("slices", {"more than one series", "s-1.tif", whole});
+  write_slices(
+      8, [](int z) { return "s" + std::to_string(z / 2) + (z % 2 == 0 ? ".0" : ".5") + ".tif"; });
+  expect_refused("slices", {"more than one series", "s0.5.tif", whole});
+  write_slices(8, [](int z) { return std::to_string(z) + ".jpg"; });
+  expect_refused("slices", {"8 .jpg files", "JPEG changes numbers"});
+  write_slices(3, [](int z) { return "inner/" + std::to_string(z) + ".tif"; });
+  expect_refused("slices", {"its folder \"inner\" has", "Give that folder"});
+  expect_made("slices/inner");
 }
 
 TEST_F(TiffVolume, WarnsOfAMissingSliceAndTellsAVolumeInTwoParts) {

@@ -47,9 +47,10 @@ FolderContent content_of(const std::string& folder) {
           .push_back(entry.path().string());
     }
   }
-  // Compares numbers in names by value: 9 before 10.
+  // Compares numbers in names by value: 9 before 10. Capitals do not count: s1, S2, s3.
   const auto comes_before = [](const std::string& a, const std::string& b) {
-    return compare_numbered(a, b) < 0;
+    const int order = compare_numbered(lower_case(a), lower_case(b));
+    return order != 0 ? order < 0 : a < b;
   };
   std::sort(content.tiffs.begin(), content.tiffs.end(), comes_before);
   std::sort(content.pngs.begin(), content.pngs.end(), comes_before);
@@ -68,6 +69,34 @@ std::string sentence_of_others(const std::vector<std::string>& names) {
     text += " and " + std::to_string(names.size() - most_shown) + " more";
   }
   return text + ".";
+}
+
+/// Returns why a folder is no volume. `others`: the names in it.
+std::string sentence_without_slices(const std::string& folder,
+                                    const std::vector<std::string>& others) {
+  if (std::any_of(others.begin(), others.end(), is_mesh_file)) {
+    return "is a folder of meshes, not of slices. wscvt batch FOLDER -o OUT remeshes them.";
+  }
+  const std::string none = "has no .tif, .png or .bmp file";
+  std::map<std::string, std::size_t> endings;
+  for (const std::string& name : others) {
+    const fs::path path = fs::path(folder) / name;
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+      if (!is_slice(entry.path().filename().string())) continue;
+      return none + ", but its folder " + in_quotes(name) + " has. Give that folder.";
+    }
+    const std::string ending = ending_of(name);
+    if (!ending.empty() && !is_foreign_file(name)) ++endings[ending];
+  }
+  const auto most =
+      std::max_element(endings.begin(), endings.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == endings.end() || most->second < 2) return none + ". Check its name.";
+  return none + ", but " + std::to_string(most->second) + " " + most->first + " files. " +
+         (most->first == ".jpg" || most->first == ".jpeg"
+              ? "JPEG changes numbers: export the slices again, as .tif or .png."
+              : "Save the slices as .tif or .png.");
 }
 
 /// Returns a name with # for each number in it, in lower case.
@@ -137,6 +166,22 @@ bool may_be_one(const std::vector<std::string>& some, const std::vector<std::str
   return true;
 }
 
+/// Whether the names of two series differ in digits, decimal points and signs alone.
+bool may_be_numbers(const std::string& one, const std::string& other) {
+  const auto rest = [](const std::string& path) {
+    std::string name = lower_case(fs::path(path).stem().string());
+    name.erase(std::remove_if(name.begin(), name.end(),
+                              [](char c) {
+                                return std::string("0123456789.,+-").find(c) < std::string::npos;
+                              }),
+               name.end());
+    return name;
+  };
+  return (pattern_of(one) != pattern_of(other) ||
+          pattern_of(one).find("#.#") < std::string::npos) &&
+         rest(one) == rest(other);
+}
+
 /// Keeps the files of one series of slices, and adds the names of odd files, such as a preview, to
 /// `others`. Throws Error(InputOutput), naming them, for two series.
 void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
@@ -164,6 +209,10 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
                            ? ". No number is in both: if they are one volume, give all files names "
                              "that differ in the number only. Else move one of them to a folder of "
                              "its own."
+                       : may_be_numbers(series[0].front(), series[1].front())
+                           ? ". If their numbers have decimals or signs, give the slices whole "
+                             "numbers from 0 on, in their order. Else move one of them to a folder "
+                             "of its own."
                            : ". Move one of them to a folder of its own."));
   }
   for (std::size_t k = 1; k < series.size(); ++k) {
@@ -380,10 +429,7 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
     kind = one;
   }
   if (kind == nullptr) {
-    const bool has_meshes = std::any_of(content.others.begin(), content.others.end(), is_mesh_file);
-    refuse_volume(path, has_meshes ? "is a folder of meshes, not of slices. wscvt batch FOLDER -o "
-                                     "OUT remeshes them."
-                                   : "has no .tif, .png or .bmp file. Check its name.");
+    refuse_volume(path, sentence_without_slices(path, content.others));
   }
   std::vector<std::int64_t> numbers = sort_hexadecimal(*kind);
   const bool is_hexadecimal = !numbers.empty();
