@@ -133,7 +133,7 @@ TEST_F(ArrayVolumes, TakesAShortLastDimensionForChannels) {
     for (std::size_t c = 0; c < 3; ++c) all += test::four_bytes(label + 200 * c).substr(0, 2);
   }
   expect_refused_of("a.npy", npy("<u2", "False", "7, 8, 9, 3", all),
-                    {"3 channels", "--select channel=1 to channel=3"});
+                    {"3 channels", "--select channel=1 to channel=3", "colours"});
   expect_made("a.npy", channel(1));
   EXPECT_EQ(labels_of("a.npy", channel(3)), labels(400));
   // With frames before: both are chosen.

@@ -38,7 +38,11 @@ std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
     if (axis.count == 1) return 0;
     refuse_volume(path, has + "s, but a volume of labels is one of them. Choose one by " +
                             mention("select", option + "1") + " to " + option +
-                            std::to_string(axis.count) + ".");
+                            std::to_string(axis.count) + "." +
+                            (is_channel && (axis.count == 3 || axis.count == 4)
+                                 ? " If they are colours, save the labels instead: one channel "
+                                   "would mix the grains."
+                                 : ""));
   }
   if (*chosen < 1 || *chosen > axis.count) {
     refuse_volume(path, has + (axis.count == 1 ? "" : "s") + ", not a " + name + " " +
