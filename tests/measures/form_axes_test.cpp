@@ -152,6 +152,19 @@ TEST(FormAxes, OfPointsOnAnEllipsoidAreOnePerMilleOfTheSmallestBox) {
   }
 }
 
+// The boxes about a round plate are such a valley: each box of a flake took 19,000 trials.
+TEST(Descend, DoesNotWalkAlongAValleyWhoseFloorIsNearlyLevel) {
+  int trials = 0;
+  const auto valley = [&trials](const Vector3& d) {
+    ++trials;
+    return 1.0 + 50.0 * d.z() * d.z() + 1e-4 * std::atan2(d.y(), d.x());
+  };
+  const Vector3 start = Vector3(0.8, 0.6, 0.05).normalized();
+  const DirectionMinimum found = descend(valley, {start, valley(start)}, 4e-3, 1e-6);
+  EXPECT_LT(std::abs(found.direction.z()), 1e-3);
+  EXPECT_LT(trials, 1000);
+}
+
 // Otherwise a body in another pose could get another box.
 TEST(FrameOf, TurnsWithThePoints) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {

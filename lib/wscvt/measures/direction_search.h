@@ -24,12 +24,14 @@ struct DirectionMinimum {
 /// Follows a function of directions downhill from `start`, with steps from `first` down to `last`
 /// radians. Moves to the best of eight neighbours. If no neighbour is better, tries eight
 /// directions between them, because a valley with a kink along its floor is narrow. Then halves the
-/// step.
+/// step. A move must lower the value by a millionth: in a valley whose floor is nearly level, as of
+/// the boxes about a round plate, thousands of smaller moves would follow.
 template <class Function>
 DirectionMinimum descend(const Function& function, DirectionMinimum start, double first,
                          double last) {
   constexpr double golden_angle = 2.399963229728653;
   constexpr int stars = 2;
+  constexpr double least_gain = 1e-6;
   double turn = 0.0;
   int failed = 0;
   for (double step = first; step > last;) {
@@ -45,7 +47,7 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
       if (value < best.value) best = {tried, value};
     }
     turn += golden_angle;
-    if (best.value < start.value) {
+    if (best.value < start.value - least_gain * std::abs(start.value)) {
       start = best;
       failed = 0;
     } else if (++failed == stars) {
