@@ -14,6 +14,7 @@
 
 #include "grains/packing.h"
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
 #include "toolbox/volume/itk_filters.h"
