@@ -143,9 +143,7 @@ void take_faces_once(const IndexedMesh& mesh, MeshCells& cells) {
 
 class CellFinder {
  public:
-  /// `fold`: see are_bodies. `pairs_all`: also where no faces lie on each other.
-  CellFinder(const IndexedMesh& mesh, double fold, bool pairs_all, const Execution& execution)
-      : points_(mesh.points), fold_(fold), pairs_all_(pairs_all) {
+  CellFinder(const IndexedMesh& mesh, const Execution& execution) : points_(mesh.points) {
     IndexedMesh aligned = mesh;
     align_diagonals(aligned, execution);
     take_faces_once(aligned, cells_);
@@ -165,7 +163,10 @@ class CellFinder {
     is_oriented_ = find_orientation(low);
   }
 
-  MeshCells run() {
+  /// `fold`: see are_bodies. `pairs_all`: also where no faces lie on each other.
+  void run(double fold, bool pairs_all) {
+    fold_ = fold;
+    pairs_all_ = pairs_all;
     Sets sides(2 * cells_.faces.size());
     Sets pieces(cells_.faces.size());
     std::vector<std::int32_t> left_out;
@@ -177,7 +178,7 @@ class CellFinder {
     }
     std::size_t count = 0;
     std::tie(cells_.of_side, count) = sides.numbers();
-    cells_.list.resize(count);
+    cells_.list.assign(count, MeshCell());
     std::tie(piece_of_, cells_.pieces) = pieces.numbers();
     cells_.unclear.assign(cells_.pieces, -1);
     cells_.lying.assign(cells_.pieces, -1);
@@ -189,29 +190,28 @@ class CellFinder {
       check_closed(h);
     }
     find_solids();
-    return std::move(cells_);
   }
 
-  /// As run; faces with one region on both sides lie on others, because none is open.
-  MeshCells run_in_doubt() {
-    MeshCells cells = run();
-    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
-      std::int32_t& lying = cells.lying[index(piece_of_[f])];
-      if (cells.before(f) == cells.behind(f) && lying < 0) lying = static_cast<std::int32_t>(3 * f);
+  /// Notes faces with one region on both sides: they lie on others, because no surface is open.
+  void doubt() {
+    for (std::size_t f = 0; f < cells_.faces.size(); ++f) {
+      std::int32_t& lying = cells_.lying[index(piece_of_[f])];
+      if (cells_.before(f) == cells_.behind(f) && lying < 0) {
+        lying = static_cast<std::int32_t>(3 * f);
+      }
     }
-    return cells;
   }
 
-  bool is_oriented() const { return is_oriented_; }
-
-  /// Whether no face has the outside on the side of its body.
-  bool keeps_bodies(const MeshCells& cells) const {
-    for (std::size_t f = 0; f < cells.faces.size(); ++f) {
-      const std::int32_t body = looks_inward_ ? cells.before(f) : cells.behind(f);
-      if (cells.reverse[f] < 0 && cells.list[index(body)].is_outside) return false;
+  /// Whether no face has the outside on the side of its body, as far as the faces tell that side.
+  bool keeps_bodies() const {
+    for (std::size_t f = 0; f < cells_.faces.size() && is_oriented_; ++f) {
+      const std::int32_t body = looks_inward_ ? cells_.before(f) : cells_.behind(f);
+      if (cells_.reverse[f] < 0 && cells_.list[index(body)].is_outside) return false;
     }
     return true;
   }
+
+  MeshCells take() { return std::move(cells_); }
 
  private:
   /// Whether a half-edge is the first of its ring.
@@ -500,8 +500,8 @@ class CellFinder {
   std::vector<std::int32_t> piece_of_;  // of every face
   std::vector<std::int32_t> outside_;   // of every piece
   double rounding_ = 0.0;               // of positions, length
-  double fold_;                         // see are_bodies, radians
-  bool pairs_all_;
+  double fold_ = 0.0;                   // see are_bodies, radians
+  bool pairs_all_ = false;
   bool is_oriented_ = false;  // see find_orientation
   bool looks_inward_ = false;
 };
@@ -509,14 +509,17 @@ class CellFinder {
 }  // namespace
 
 MeshCells find_mesh_cells(const IndexedMesh& mesh, const Execution& execution) {
-  // Single precision; walls of several corners, each cut by itself, which cross a little.
-  for (const double fold : {1e-3, 0.35}) {
-    CellFinder finder(mesh, fold, fold > 0.1, execution);
-    MeshCells cells = finder.run();
-    if (!finder.is_oriented() || finder.keeps_bodies(cells)) return cells;
+  // Radians: of faces in single precision, and of walls of several corners, each cut by itself.
+  constexpr double rounded = 1e-3;
+  constexpr double crossing = 0.35;
+  CellFinder finder(mesh, execution);
+  finder.run(rounded, false);
+  if (!finder.keeps_bodies()) finder.run(crossing, true);
+  if (!finder.keeps_bodies()) {
+    finder.run(0.0, false);
+    finder.doubt();
   }
-  CellFinder finder(mesh, 0.0, false, execution);
-  return finder.run_in_doubt();
+  return finder.take();
 }
 
 }  // namespace wscvt
