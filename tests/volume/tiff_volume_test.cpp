@@ -453,7 +453,6 @@ std::string bytes_of_float(const std::vector<std::uint32_t>& labels, Value last)
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
 }
 
-// MorphoLibJ's watershed, and every user of NumPy.
 // As on a network's disk that goes away.
 TEST_F(TiffVolume, ThatIsCutWhileItIsReadIsRefused) {
   for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW}) {
@@ -472,6 +471,7 @@ TEST_F(TiffVolume, ThatIsCutWhileItIsReadIsRefused) {
   }
 }
 
+// MorphoLibJ's watershed, and every user of NumPy.
 TEST_F(TiffVolume, TakesFloatsThatAreWholeForLabels) {
   const auto cut = [](const std::string& bytes) {
     std::vector<std::string> all;

@@ -30,6 +30,7 @@ namespace {
 /// Bytes per read.
 constexpr std::size_t block_size = std::size_t{1} << 20;
 
+/// With a larger buffer than InputFile's.
 class FileBytes : public ByteSource {
  public:
   FileBytes(const std::string& path, std::uint64_t offset) : path_(path), buffer_(block_size) {

@@ -61,8 +61,9 @@ DirectionMinimum descend(const Function& function, DirectionMinimum start, doubl
 /// Finds the smallest value of a function that is equal for a direction and its opposite. `coarse`
 /// and `medium` approximate it with fewer points. Evaluates `coarse` on a lattice of 500 directions
 /// and follows it downhill from at most 32 of the lattice's best minima. Then follows `medium` from
-/// the twelve best results, and `function` from the three best of these, to 1e-6 radians. If the
-/// result must turn with a body, give functions of the body in its own frame (frame_of).
+/// the twelve best results, and `function` from the three best of these, with steps down to 1e-6
+/// radians. If the result must turn with a body, give functions of the body in its own frame
+/// (frame_of).
 template <class Coarse, class Medium, class Function>
 DirectionMinimum smallest_over_directions(const Coarse& coarse, const Medium& medium,
                                           const Function& function, const char* stage,
