@@ -110,6 +110,21 @@ TEST_F(MachineRefusals, WorkGoesOnWithTheThreadsThatItGets) {
   }
 }
 
+TEST_F(MachineRefusals, AFileOfABatchThatCannotBeReadChangesNothing) {
+  write_scans(2);
+  ASSERT_EQ(run("batch scans -o out -q -n 60").exit_code, 0);
+  const std::string rows = content("out/grains.csv");
+  // A file of Linux that can be opened, and whose first byte cannot be read.
+  fs::remove(folder_ / "out/call.json");
+  fs::create_symlink("/proc/self/mem", folder_ / "out/call.json");
+  const Outcome stopped = run("batch scans -o out -q -n 60");
+  EXPECT_EQ(stopped.exit_code, 1);
+  EXPECT_NE(stopped.errors.find("call.json\" could not be read to its end. Check the disk."),
+            std::string::npos)
+      << stopped.errors;
+  EXPECT_EQ(content("out/grains.csv"), rows);
+}
+
 TEST_F(MachineRefusals, AFullDiskStopsABatchWhichThenGoesOn) {
   write_scans(3);
   const std::string call = "batch scans -o out -q --describe none -n 1500 --format off";
