@@ -12,7 +12,7 @@
 
 namespace wscvt {
 
-/// Pi. M_PI of <cmath> is not standard, and <numbers> needs C++20.
+/// Pi. M_PI of `<cmath>` is not standard, and `<numbers>` needs C++20.
 inline constexpr double pi = 3.14159265358979323846;
 
 /// Returns the radius of the sphere with this volume (length^3, 0 or more): (3 V / 4 pi)^(1/3),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Functions that have the same bits on every processor and system. Those of <cmath> do not: each C
-/// library rounds them in its own way, and glibc chooses among variants by the processor. These use
-/// nothing but +, -, *, /, square roots and exact functions (floor, frexp, ldexp, fmod), which IEEE
-/// 754 defines. Their errors were measured against the long doubles of x86-64, see
+/// Functions that have the same bits on every processor and system. Those of `<cmath>` do not: each
+/// C library rounds them in its own way, and glibc chooses among variants by the processor. These
+/// use nothing but +, -, *, /, square roots and exact functions (floor, frexp, ldexp, fmod), which
+/// IEEE 754 defines. Their errors were measured against the long doubles of x86-64, see
 /// portable_math_test.cpp: below 1 ulp for sin, cos, exp, log and cbrt, 2 for log10, atan2 and
 /// acos, 3 for tanh, and 5 for pow.
 namespace wscvt::portable {

@@ -26,7 +26,7 @@ int compare_numbered(const std::string& a, const std::string& b);
 // Converts foreign text, such as a file name, for terminals, tables and HTML pages.
 
 /// Returns the text as UTF-8 that is safe in a terminal, a table and a page. Bytes of control
-/// characters, except those in `kept`, and bytes that are no UTF-8 become \xNN, with two
+/// characters, except those in `kept`, and bytes that are no UTF-8 become `\xNN`, with two
 /// hexadecimal digits.
 std::string readable(std::string_view text, std::string_view kept = "\n");
 
