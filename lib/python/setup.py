@@ -13,9 +13,10 @@ from setuptools.command.build_ext import build_ext
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
 NEEDED = """
 The build needs a C++17 compiler, CMake 3.22, pybind11, OpenMesh 9, Eigen 3.4, CGAL 5.5, Boost,
-nlohmann-json and zlib; stb_image for pictures. On Debian or Ubuntu run, as root or with sudo:
+nlohmann-json and zlib; stb_image for pictures, ITK for segment. On Debian or Ubuntu run, as root or with sudo:
     apt-get install g++ cmake ninja-build pybind11-dev python3-dev libopenmesh-dev libeigen3-dev \\
-      libcgal-dev libboost-dev nlohmann-json3-dev zlib1g-dev libstb-dev
+      libcgal-dev libboost-dev nlohmann-json3-dev zlib1g-dev libstb-dev \\
+      libinsighttoolkit5-dev
 Or install the wheel, which needs no build: see lib/python/README.md."""
 
 
