@@ -942,6 +942,45 @@ TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
   EXPECT_EQ(text.find("as of several minerals"), std::string::npos) << text;
 }
 
+// A window of grey values that is too narrow moves the middle of the peaks, and so all surfaces.
+TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
+  // Void at 100 and grains at 300, with noise of 10, between the values of the window.
+  const auto doubts = [&](double least, double largest, bool is_dark) {
+    made_ = MadeVolume({48, 30, 26});
+    std::mt19937_64 engine(test::announced(8));
+    std::normal_distribution<double> noise(0.0, 10.0);
+    for (std::int32_t z = 0; z < 26; ++z) {
+      for (std::int32_t y = 0; y < 30; ++y) {
+        for (std::int32_t x = 0; x < 48; ++x) {
+          const Vector3 p(x, y, z);
+          const bool is_grain =
+              (p - Vector3(12, 14, 13)).norm() < 8.0 || (p - Vector3(33, 16, 12)).norm() < 8.0;
+          const double grey = (is_grain != is_dark ? 300.0 : 100.0) + noise(engine);
+          made_.at(x, y, z) = static_cast<Label>(std::clamp(grey, least, largest));
+        }
+      }
+    }
+    write_made();
+    SegmentationOptions options;
+    options.dark = is_dark;
+    std::string text;
+    for (const std::string& line : segmentation_lines(segmented(options))) text += line + "\n";
+    return text;
+  };
+  EXPECT_EQ(doubts(0.0, 500.0, false).find("cut off"), std::string::npos);
+  EXPECT_EQ(doubts(90.0, 310.0, false).find("cut off"), std::string::npos);
+  for (const bool is_dark : {false, true}) {
+    const std::string low = doubts(150.0, 500.0, is_dark);
+    EXPECT_NE(low.find("have one value, the least of the scan"), std::string::npos) << low;
+    EXPECT_NE(low.find(is_dark ? "come out too large" : "come out too small"), std::string::npos)
+        << low;
+    const std::string high = doubts(0.0, 250.0, is_dark);
+    EXPECT_NE(high.find("have one value, the largest of the scan"), std::string::npos) << high;
+    EXPECT_NE(high.find(is_dark ? "come out too small" : "come out too large"), std::string::npos)
+        << high;
+  }
+}
+
 // All sides are flat, and the block crosses the volume as a container does.
 TEST_F(SegmentationOfAFile, TakesNoSpaceBetweenDarkGrainsForAWall) {
   made_ = MadeVolume({40, 24, 24});

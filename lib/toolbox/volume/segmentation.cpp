@@ -460,6 +460,46 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   result.brightest_space = values.base + values.step * brightest;
 }
 
+/// Notes how many voxels of the darker side have the least value, and of the brighter side the
+/// largest, if they are most and the other side has noise: a scan's window of grey values cut them
+/// off. `grey`: not smoothed.
+void note_cut_off(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
+                  const VoxelCounts& sizes, Segmentation& result) {
+  constexpr double most = 0.6;
+  constexpr double least_noise = 0.01;  // of the contrast
+  std::vector<std::uint64_t> counts(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0);
+  std::uint64_t all = 0;
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (!outside.empty() && outside[k] != 0) continue;
+    ++counts[grey[k]];
+    ++all;
+  }
+  const auto is_some = [](std::uint64_t count) { return count > 0; };
+  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return;
+  const auto parted = static_cast<std::size_t>(otsu_level(counts));
+  std::array<std::vector<std::uint64_t>, 2> differences;
+  for (auto& side : differences) side.assign(counts.size(), 0);
+  const auto width = static_cast<std::size_t>(sizes[0]);
+  for (std::size_t k = 1; k < grey.size(); ++k) {
+    if (k % width == 0 || (!outside.empty() && (outside[k] != 0 || outside[k - 1] != 0))) continue;
+    const bool is_above = grey[k] >= parted;
+    if (is_above != (grey[k - 1] >= parted)) continue;
+    ++differences[is_above ? 1 : 0][static_cast<std::size_t>(std::abs(grey[k] - grey[k - 1]))];
+  }
+  std::uint64_t below = 0;
+  for (std::size_t k = 0; k < parted; ++k) below += counts[k];
+  const std::size_t least = quantile_of(counts, 0.0);
+  const std::size_t largest = quantile_of(counts, 1.0);
+  const auto share = [&](std::size_t value, std::uint64_t side, std::size_t other) {
+    const double noise = least_noise * static_cast<double>(largest - least);
+    const auto found = static_cast<double>(counts[value]) / static_cast<double>(side);
+    const bool is_noisy = static_cast<double>(quantile_of(differences[other], 0.5)) > noise;
+    return found > most && is_noisy ? found : 0.0;
+  };
+  result.share_of_least = share(least, below, 1);
+  result.share_of_largest = share(largest, all - below, 0);
+}
+
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
 /// given, and the peaks of `result`. `left_out`: what was not scanned, to which the wall of a
 /// container is added.
@@ -470,6 +510,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   const VoxelCounts& sizes = scan.geometry().counts;
   ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
+  if (!options.threshold) note_cut_off(grey, left_out, sizes, result);
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
   const bool has_noise = range.values.size() > most_phases;
   GreyCounts counts = counts_of(grey, left_out, sizes, has_noise);

@@ -274,6 +274,25 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
 
 }  // namespace
 
+/// Adds a doubt on grey values that were cut off at the least or the largest.
+void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  const auto add = [&](double share, bool is_least) {
+    if (share == 0.0) return;
+    const bool is_material = is_least == segmentation.is_dark;
+    doubts.push_back(
+        format_percent(share) + " of the voxels of the " +
+        (is_material ? "grains" : "space between the grains") + " have one value, the " +
+        (is_least ? "least" : "largest") + " of the scan: the values beyond it were " +
+        "probably cut off when the scan was saved. Then grains come out too " +
+        (is_material ? "large" : "small") +
+        ". Save the scan again with a wider range of grey values. If you know those of "
+        "grains and space before the cut, give " +
+        mention("threshold") + " half way between them.");
+  };
+  add(segmentation.share_of_least, true);
+  add(segmentation.share_of_largest, false);
+}
+
 /// Adds a doubt on the grey values of void and material.
 void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<Sentence>& doubts) {
   const bool is_uneven = !is_inverted && segmentation.brightest_space > segmentation.darkest_space;
@@ -287,6 +306,7 @@ void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<S
                      (segmentation.is_dark ? "black_tophat" : "white_tophat") +
                      "(scan, SIZE) with a SIZE above the largest grain's, in voxels.");
   }
+  add_cut_off(segmentation, doubts);
   // Who chose the material has seen the peaks. Of inverted grains they are not the grains', and
   // of layers more is told.
   const std::size_t peaks =
@@ -297,8 +317,10 @@ void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<S
     doubts.push_back("The grey values have one peak, at " +
                      format_number(segmentation.peaks[0], 4) +
                      ": grains and the space between them do not differ much, or by less than the "
-                     "noise. Give " +
-                     mention("threshold") + " if the outlines are wrong.");
+                     "noise or a background that is not even. Give " +
+                     mention("threshold") +
+                     " if the outlines are wrong. Beam hardening is corrected in the "
+                     "reconstruction.");
   } else if (peaks > 2) {
     std::string values;
     for (std::size_t k = 0; k < peaks; ++k) {
