@@ -234,7 +234,7 @@ TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   EXPECT_EQ(parted.exit_code, 0) << parted.errors;
   EXPECT_EQ(parted.errors, "");
   const std::string lines = parted.output.substr(parted.output.find('\n') + 1);
-  EXPECT_EQ(lines.rfind("Voxel size not in the file: lengths in voxels. Give it by --voxel-size.\n"
+  EXPECT_EQ(lines.rfind("No voxel size found: lengths in voxels. Give it by --voxel-size.\n"
                         "2 labels: 2 written\n1 file of the earlier call removed\n"
                         "Files       \"out\"\nTime        ",
                         0),

@@ -413,7 +413,9 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
     std::size_t left = 100000;
     find_volumes(file, "", 0, left, names);
     if (names.empty()) {
-      refuse_volume(path, "has no data set of numbers with three dimensions. Export it again.");
+      refuse_volume(path,
+                    "has no data set of three dimensions with whole numbers, float32 or float64. "
+                    "Links to other files are not followed. Save the voxels so, in one file.");
     }
     VolumeChoice from_root = choice;
     if (!choice.array.empty() && choice.array.front() != '/') from_root.array = "/" + choice.array;

@@ -215,8 +215,8 @@ void describe(LabelVolume& volume, const VolumeChoice& choice) {
   }
   if (!geometry.has_size) {
     volume.describe(counts + " voxels.");
-    volume.add_note("Voxel size not in the file: lengths in voxels. Give it by " +
-                    mention("voxel-size") + ".");
+    volume.add_note("No voxel size found: lengths in voxels. Give it by " + mention("voxel-size") +
+                    ".");
     return;
   }
   const Sentence source = choice.voxel_size              ? mention("voxel-size")
