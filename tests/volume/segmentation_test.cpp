@@ -156,7 +156,7 @@ TEST_F(SegmentationOfAPacking, TakesMasksAsTheyAre) {
   EXPECT_EQ(grains.labels().size(), found.grains.size());
   EXPECT_EQ(grains.left_out(), 0.0);
   ASSERT_FALSE(grains.notes().empty());
-  EXPECT_NE(grains.notes()[0].text().find("Voxel size"), std::string::npos);
+  EXPECT_NE(grains.notes()[0].text().find("voxel size"), std::string::npos);
 }
 
 TEST_F(SegmentationOfAFile, MeasuresNecksAgainstTheSmallerGrain) {

@@ -577,7 +577,7 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
 
   fs::rename(path("slices/s10.tif"), path("slices/s11.tif"));
   expect_made("slices");
-  EXPECT_NE(notes("slices").back().find("Voxel size"), std::string::npos);
+  EXPECT_NE(notes("slices").back().find("voxel size"), std::string::npos);
   EXPECT_NE(open_volume(path("slices"))
                 ->warnings()
                 .at(0)

@@ -490,14 +490,17 @@ void note_cut_off(const std::vector<std::uint16_t>& grey, const std::vector<std:
   for (std::size_t k = 0; k < parted; ++k) below += counts[k];
   const std::size_t least = quantile_of(counts, 0.0);
   const std::size_t largest = quantile_of(counts, 1.0);
-  const auto share = [&](std::size_t value, std::uint64_t side, std::size_t other) {
+  const auto fraction = [&](std::size_t value, std::uint64_t side, std::size_t other) {
     const double noise = least_noise * static_cast<double>(largest - least);
     const auto found = static_cast<double>(counts[value]) / static_cast<double>(side);
-    const bool is_noisy = static_cast<double>(quantile_of(differences[other], 0.5)) > noise;
+    // Without neighbours on the other side its noise is not known.
+    const bool is_noisy =
+        std::any_of(differences[other].begin(), differences[other].end(), is_some) &&
+        static_cast<double>(quantile_of(differences[other], 0.5)) > noise;
     return found > most && is_noisy ? found : 0.0;
   };
-  result.share_of_least = share(least, below, 1);
-  result.share_of_largest = share(largest, all - below, 0);
+  result.fraction_of_least = fraction(least, below, 1);
+  result.fraction_of_largest = fraction(largest, all - below, 0);
 }
 
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not

@@ -91,8 +91,8 @@ struct Segmentation {
   double brightest_space = 0.0;
   /// Of the voxels of the darker side, the fraction that has the least grey value, and of the
   /// brighter side, that has the largest, if the scan's values were probably cut off there; else 0.
-  double share_of_least = 0.0;
-  double share_of_largest = 0.0;
+  double fraction_of_least = 0.0;
+  double fraction_of_largest = 0.0;
   double blur = 0.0;  ///< of the edges at the threshold, a standard deviation, voxels
   /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
   std::vector<EdgeSteps> steps;

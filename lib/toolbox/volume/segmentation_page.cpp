@@ -276,11 +276,11 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
 
 /// Adds a doubt on grey values that were cut off at the least or the largest.
 void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
-  const auto add = [&](double share, bool is_least) {
-    if (share == 0.0) return;
+  const auto add = [&](double fraction, bool is_least) {
+    if (fraction == 0.0) return;
     const bool is_material = is_least == segmentation.is_dark;
     doubts.push_back(
-        format_percent(share) + " of the voxels of the " +
+        format_percent(fraction) + " of the voxels of the " +
         (is_material ? "grains" : "space between the grains") + " have one value, the " +
         (is_least ? "least" : "largest") + " of the scan: the values beyond it were " +
         "probably cut off when the scan was saved. Then grains come out too " +
@@ -289,8 +289,8 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
         "grains and space before the cut, give " +
         mention("threshold") + " half way between them.");
   };
-  add(segmentation.share_of_least, true);
-  add(segmentation.share_of_largest, false);
+  add(segmentation.fraction_of_least, true);
+  add(segmentation.fraction_of_largest, false);
 }
 
 /// Adds a doubt on the grey values of void and material.
