@@ -66,8 +66,13 @@ TEST(Coordinates, OfVerticesWithoutAFaceDoNotCount) {
 TEST(Coordinates, TooFewDecimalsAreNoticed) {
   const IndexedMesh mesh = test::lumpy(5);
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 1e-4)), "");
-  const std::string coarse = precision_warning(rounded(mesh, Vector3::Zero(), 0.1));
-  EXPECT_NE(coarse.find("more digits"), std::string::npos) << coarse;
+  // The step itself is told, not one that would be too coarse already.
+  const IndexedMesh fine = test::lumpy(7);
+  for (const auto& [step, told] : {std::pair(0.1, "steps of 0.1,"), {0.01, "steps of 0.01,"}}) {
+    const std::string coarse = precision_warning(rounded(fine, Vector3::Zero(), step));
+    EXPECT_NE(coarse.find(told), std::string::npos) << coarse;
+    EXPECT_NE(coarse.find("more digits"), std::string::npos) << coarse;
+  }
 }
 
 TEST(Coordinates, LatticesAreNotSuspected) {

@@ -109,15 +109,17 @@ std::string precision_warning(const IndexedMesh& mesh) {
   if (!far.empty() || !is_measurable(mesh)) return far;
   const double edge = sampled_mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.
-  const double power_of_ten = portable::pow(10.0, std::floor(-portable::log10(coarse_step * edge)));
-  if (!std::isfinite(power_of_ten) ||
-      !all_coordinates(mesh, [&](double value) { return has_decimals(value, power_of_ten); })) {
-    return "";
-  }
+  double power_of_ten = portable::pow(10.0, std::floor(-portable::log10(coarse_step * edge)));
+  const auto has_steps = [&](double power) {
+    return all_coordinates(mesh, [&](double value) { return has_decimals(value, power); });
+  };
+  if (!std::isfinite(power_of_ten) || !has_steps(power_of_ten)) return "";
   const std::size_t collapsed = collapsed_faces(mesh);
   if (collapsed == 0) return "";
+  // It ends, because some coordinate is not 0.
+  while (has_steps(power_of_ten / 10.0)) power_of_ten /= 10.0;
   return "The scan's coordinates have steps of " + format_number(1.0 / power_of_ten) +
-         " or more, but its mean edge is " + format_number(edge, 3) + lost(collapsed) +
+         ", but its mean edge is " + format_number(edge, 3) + lost(collapsed) +
          ". Save it with more digits.";
 }
 
