@@ -16,7 +16,8 @@ int main(int count, char** arguments) try {
   const wscvt::Execution all_threads;
   const wscvt::IndexedMesh mesh = wscvt::read_mesh(arguments[1]);
   const wscvt::IndexedMesh reference = wscvt::read_mesh(arguments[2]);
-  const wscvt::MeshDistances apart = wscvt::measure_distances(mesh, reference, {}, all_threads);
+  const wscvt::MeshDistances apart =
+      wscvt::measure_distances(mesh, reference, wscvt::usual_distance_samples, all_threads);
   std::cout << "two-sided rms " << apart.root_mean_square << ", largest " << apart.largest << '\n';
 
   // The same tree answers single points.

@@ -65,7 +65,7 @@ TEST(Distances, NestedCubes) {
   // Cube of edge 1 in one of edge 1.2. From inside out every point is 0.1 away; from outside in the
   // squared distance over a face is 0.01 + e_x^2 + e_y^2, e the part beyond 0.5 in each direction.
   const MeshDistances d = measure_distances(test::box(1, 1, 1), test::box(1.2, 1.2, 1.2),
-                                            DistanceOptions(), Execution(1));
+                                            usual_distance_samples, Execution(1));
   EXPECT_NEAR(d.to_reference.maximum, 0.1, 1e-14);
   EXPECT_NEAR(d.to_reference.root_mean_square, 0.1, 1e-14);
   EXPECT_NEAR(d.to_reference.mean, 0.1, 1e-14);
@@ -80,9 +80,9 @@ TEST(Distances, NestedCubes) {
 TEST(Distances, SwappingTheMeshesSwapsTheSides) {
   const IndexedMesh a = test::lumpy(2);
   const IndexedMesh b = test::lumpy(4);
-  const DistanceOptions options{2000};
-  const MeshDistances ab = measure_distances(a, b, options, Execution(1));
-  const MeshDistances ba = measure_distances(b, a, options, Execution(1));
+  constexpr std::size_t samples = 2000;
+  const MeshDistances ab = measure_distances(a, b, samples, Execution(1));
+  const MeshDistances ba = measure_distances(b, a, samples, Execution(1));
   EXPECT_EQ(ab.to_reference.maximum, ba.from_reference.maximum);
   EXPECT_EQ(ab.to_reference.root_mean_square, ba.from_reference.root_mean_square);
   EXPECT_EQ(ab.largest, ba.largest);
@@ -98,8 +98,7 @@ TEST(Distances, ChordsOfASphere) {
     const Vector3 n = (coarse.points[t[1]] - a).cross(coarse.points[t[2]] - a).normalized();
     deepest = std::min(deepest, n.dot(a));
   }
-  const MeshDistances d =
-      measure_distances(coarse, test::sphere(5), DistanceOptions{10000}, Execution(1));
+  const MeshDistances d = measure_distances(coarse, test::sphere(5), 10000, Execution(1));
   // The fine sphere itself lies within (0.04)^2 / 8 of the true one.
   EXPECT_NEAR(d.largest, 1.0 - deepest, 3e-4);
 }
@@ -160,8 +159,7 @@ TEST(Distances, InAnotherUnitAreThoseOfTheScaledMeshes) {
   const double unit = 0.25;  // exact
   const auto measured = [&](double size) {
     return measure_distances(test::scaled(mesh, Vector3::Constant(size)),
-                             test::scaled(reference, Vector3::Constant(size)), DistanceOptions{500},
-                             Execution(1));
+                             test::scaled(reference, Vector3::Constant(size)), 500, Execution(1));
   };
   MeshDistances scaled = measured(1.0);
   scale(scaled, unit);
@@ -175,15 +173,13 @@ TEST(Distances, AreTakenAtTheVerticesToo) {
   for (Vector3& p : spike.points) {
     if (p.minCoeff() > 0.0) p *= 7.0;
   }
-  const MeshDistances d =
-      measure_distances(spike, test::box(1, 1, 1), DistanceOptions{1}, Execution(1));
+  const MeshDistances d = measure_distances(spike, test::box(1, 1, 1), 1, Execution(1));
   EXPECT_NEAR(d.to_reference.maximum, 3.0 * std::sqrt(3.0), 1e-14);
   // A vertex without a face is no part of the surface.
   IndexedMesh stray = spike;
   stray.points.emplace_back(90.0, 0.0, 0.0);
-  for (const MeshDistances& one :
-       {measure_distances(stray, test::box(1, 1, 1), DistanceOptions{1}, Execution(1)),
-        sampled_distances(stray, test::box(1, 1, 1), 1, Execution(1))}) {
+  for (const MeshDistances& one : {measure_distances(stray, test::box(1, 1, 1), 1, Execution(1)),
+                                   sampled_distances(stray, test::box(1, 1, 1), 1, Execution(1))}) {
     EXPECT_NEAR(one.largest, 3.0 * std::sqrt(3.0), 1e-14);
   }
 }
@@ -213,7 +209,7 @@ TEST(Distances, TheLargestIsFoundInsideFaces) {
         test::lumpy(1), Eigen::AngleAxisd(angle, Vector3(1, 2, 3).normalized()).toRotationMatrix());
     const double to = largest_by_points(coarse, scan, 48);
     const double from = largest_by_points(scan, coarse, 4);
-    const MeshDistances d = measure_distances(coarse, scan, DistanceOptions{1}, Execution(2));
+    const MeshDistances d = measure_distances(coarse, scan, 1, Execution(2));
     // The points are a hundredth of the size apart, and the distance is flat where it is largest.
     EXPECT_GE(d.to_reference.maximum, 0.99 * to);
     EXPECT_LE(d.to_reference.maximum, 1.01 * to);
@@ -228,28 +224,27 @@ TEST(Distances, TheLargestIsFoundInsideFaces) {
 TEST(Distances, OfShellsAndOfTheMeshItself) {
   const IndexedMesh inner = test::sphere(3);
   const IndexedMesh outer = test::scaled(inner, Vector3::Constant(1.5));
-  const MeshDistances d = measure_distances(inner, outer, DistanceOptions{10}, Execution(1));
+  const MeshDistances d = measure_distances(inner, outer, 10, Execution(1));
   EXPECT_NEAR(d.from_reference.maximum, 0.5, 1e-12);
   EXPECT_NEAR(d.to_reference.maximum, 0.5, 5e-3);
-  EXPECT_NEAR(measure_distances(inner, inner, DistanceOptions{10}, Execution(1)).largest, 0.0,
-              1e-15);
+  EXPECT_NEAR(measure_distances(inner, inner, 10, Execution(1)).largest, 0.0, 1e-15);
 }
 
 TEST(Distances, SameBitsOnAnyNumberOfThreads) {
-  const DistanceOptions options{5000};
+  constexpr std::size_t samples = 5000;
   const MeshDistances one =
-      measure_distances(test::lumpy(2), test::lumpy(4), options, Execution(1));
+      measure_distances(test::lumpy(2), test::lumpy(4), samples, Execution(1));
   const MeshDistances three =
-      measure_distances(test::lumpy(2), test::lumpy(4), options, Execution(3));
+      measure_distances(test::lumpy(2), test::lumpy(4), samples, Execution(3));
   EXPECT_EQ(std::memcmp(&one, &three, sizeof one), 0);
 }
 
 TEST(Distances, SameBitsWithATreeAtHand) {
   const IndexedMesh reference = test::lumpy(4);
-  const DistanceOptions options{5000};
-  const MeshDistances plain = measure_distances(test::lumpy(2), reference, options, Execution(1));
+  constexpr std::size_t samples = 5000;
+  const MeshDistances plain = measure_distances(test::lumpy(2), reference, samples, Execution(1));
   const MeshDistances with_tree =
-      measure_distances(test::lumpy(2), reference, MeshDistance(reference), options, Execution(1));
+      measure_distances(test::lumpy(2), reference, MeshDistance(reference), samples, Execution(1));
   EXPECT_EQ(std::memcmp(&plain, &with_tree, sizeof plain), 0);
 }
 
@@ -274,17 +269,17 @@ TEST(Distances, RmsIsThatOfTheDistancesOneByOneInWhateverOrderTheFacesAre) {
 
 TEST(Distances, RefusesWhatCannotBeMeasured) {
   const IndexedMesh box = test::box(1, 1, 1);
-  EXPECT_ERROR(measure_distances(box, IndexedMesh(), DistanceOptions(), Execution(1)),
+  EXPECT_ERROR(measure_distances(box, IndexedMesh(), usual_distance_samples, Execution(1)),
                InvalidInput);
-  EXPECT_ERROR(measure_distances(IndexedMesh(), box, DistanceOptions(), Execution(1)),
+  EXPECT_ERROR(measure_distances(IndexedMesh(), box, usual_distance_samples, Execution(1)),
                InvalidInput);
-  EXPECT_ERROR(measure_distances(box, box, DistanceOptions{0}, Execution(1)), InvalidInput);
+  EXPECT_ERROR(measure_distances(box, box, 0, Execution(1)), InvalidInput);
 }
 
 TEST(Distances, CanBeCancelled) {
   const Execution execution(1, [](double fraction, const std::string&) { return fraction < 0.4; });
   try {
-    measure_distances(test::lumpy(2), test::lumpy(2), DistanceOptions{100}, execution);
+    measure_distances(test::lumpy(2), test::lumpy(2), 100, execution);
     FAIL() << "not cancelled";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::Cancelled);
@@ -325,7 +320,7 @@ TEST(SampledDistances, OfManyFacesAreThoseOfATree) {
     };
     EXPECT_GE(measured.to_reference.maximum, farthest(mesh, scan) - 1e-14);
     // The search of all faces is at most 1 % below the largest.
-    const MeshDistances all = measure_distances(mesh, scan, DistanceOptions{1}, Execution(2));
+    const MeshDistances all = measure_distances(mesh, scan, 1, Execution(2));
     EXPECT_LE(measured.to_reference.maximum, 1.01 * all.to_reference.maximum);
     EXPECT_NEAR(measured.from_reference.maximum, farthest(scan, mesh), 1e-14);
   }

@@ -94,7 +94,7 @@ Rim rim_of(const IndexedMesh& mesh) {
 }
 
 double two_sided(const IndexedMesh& a, const IndexedMesh& b) {
-  return measure_distances(a, b, DistanceOptions{20000}, Execution(1)).root_mean_square;
+  return measure_distances(a, b, 20000, Execution(1)).root_mean_square;
 }
 
 /// A washer without symmetry: flat sheets, straight walls, uneven outlines, a hole off its middle.

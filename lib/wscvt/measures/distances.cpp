@@ -400,38 +400,38 @@ MeshDistances both_of(const OneSidedDistance& to, const OneSidedDistance& from) 
           std::max(to.root_mean_square, from.root_mean_square)};
 }
 
+void check_samples(std::size_t samples) {
+  if (samples == 0) refuse("Distances need at least one sample.");
+}
+
 }  // namespace
 
-void check_distance_options(const DistanceOptions& options) {
-  require_in_range(options.samples, distance_samples_option);
-}
-
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
-                                const DistanceOptions& options, const Execution& execution) {
-  check_distance_options(options);
+                                std::size_t samples, const Execution& execution) {
+  check_samples(samples);
   execution.report(0.0, distance_stage);
-  return measure_distances(mesh, reference, MeshDistance(reference, execution), options, execution);
+  return measure_distances(mesh, reference, MeshDistance(reference, execution), samples, execution);
 }
 
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
-                                const MeshDistance& to_reference, const DistanceOptions& options,
+                                const MeshDistance& to_reference, std::size_t samples,
                                 const Execution& execution) {
-  check_distance_options(options);
+  check_samples(samples);
   execution.report(0.0, distance_stage);
-  const OneSidedDistance to = one_sided(mesh, to_reference, options.samples, execution);
+  const OneSidedDistance to = one_sided(mesh, to_reference, samples, execution);
   execution.report(0.5, distance_stage);
   const OneSidedDistance from =
-      one_sided(reference, MeshDistance(mesh, execution), options.samples, execution);
+      one_sided(reference, MeshDistance(mesh, execution), samples, execution);
   execution.report(1.0, distance_stage);
   return both_of(to, from);
 }
 
 MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution) {
-  check_distance_options({samples});
+  check_samples(samples);
   constexpr std::size_t denser = 4;
   if (reference.triangles.size() <= denser * mesh.triangles.size()) {
-    return measure_distances(mesh, reference, {samples}, execution);
+    return measure_distances(mesh, reference, samples, execution);
   }
   const OneSidedDistance to = one_sided_to_scan(mesh, reference, samples, execution);
   // The mesh is nearly flat beside a face of the dense reference, so a corner is the farthest.
@@ -444,7 +444,7 @@ MeshDistances sampled_distances(const IndexedMesh& mesh, const IndexedMesh& refe
 
 double rms_distance(const IndexedMesh& from, const IndexedMesh& to, std::size_t samples,
                     const Execution& execution) {
-  check_distance_options({samples});
+  check_samples(samples);
   return of_samples(distances_to(to, area_uniform_samples(from, samples), execution), execution)
       .root_mean_square;
 }

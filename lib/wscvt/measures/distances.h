@@ -6,30 +6,14 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/option.h"
 #include "wscvt/measures/mesh_distance.h"
 
 namespace wscvt {
 
 struct MeshPlace;
 
-/// Sample points of the distances.
-struct DistanceOptions {
-  /// Number of points spread evenly by area over each of the two surfaces, 1 to 1e8.
-  /// measure_distances says which errors depend on it.
-  std::size_t samples = 50000;
-};
-
-inline constexpr NumberOption<std::size_t> distance_samples_option = {
-    "distance-samples",
-    "number of distance samples",
-    1,
-    100000000,
-    Ends::Both,
-    "points on each surface at which distances are taken"};
-
-/// Throws Error(InvalidInput), with the range, for options out of range.
-void check_distance_options(const DistanceOptions& options);
+/// Points on each surface for mean and rms distances, see measure_distances.
+inline constexpr std::size_t usual_distance_samples = 50000;
 
 /// Distances from the points of one surface to another; length.
 struct OneSidedDistance {
@@ -56,14 +40,14 @@ struct MeshDistances {
 /// never too large. It is at most 1 %, or 1e-5 of the mesh's size, too small, unless large faces
 /// lie far from the other surface, where the search is bounded.
 ///
-/// Throws Error(InvalidInput) if a mesh has no faces or no area, or `samples` is out of range.
+/// Throws Error(InvalidInput) if a mesh has no faces or no area, or `samples` is 0.
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
-                                const DistanceOptions& options, const Execution& execution);
+                                std::size_t samples, const Execution& execution);
 
 /// The function above for several meshes and one reference: `to_reference`, built from `reference`,
 /// is reused.
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
-                                const MeshDistance& to_reference, const DistanceOptions& options,
+                                const MeshDistance& to_reference, std::size_t samples,
                                 const Execution& execution);
 
 /// Measures the same with few samples: it builds no tree of a reference that has many more faces

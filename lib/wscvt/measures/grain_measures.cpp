@@ -135,7 +135,7 @@ GrainMeasures measure_grain(NamedMesh grain, std::optional<NamedMesh> reference,
     execution.report(0.8, "Measuring distances");
     measures.distances =
         measure_distances(measures.grain.checked.mesh, measures.reference->checked.mesh,
-                          DistanceOptions(), execution.part(0.8, 1.0));
+                          usual_distance_samples, execution.part(0.8, 1.0));
   }
   return measures;
 }

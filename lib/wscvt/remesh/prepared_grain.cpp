@@ -45,7 +45,7 @@ void add_distances(const PreparedGrain& grain, RemeshResult& result, const Execu
   execution.report(0.0, "Measuring distances");
   if (grain.distance) {
     result.distances = measure_distances(result.mesh, grain.scan.mesh, *grain.distance,
-                                         DistanceOptions(), execution);
+                                         usual_distance_samples, execution);
     result.vertex_distances = grain.distance->signed_distances(result.mesh.points, execution);
     result.rms_distance = result.distances->root_mean_square;
     result.largest_distance = result.distances->largest;

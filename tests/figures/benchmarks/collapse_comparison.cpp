@@ -152,7 +152,7 @@ Row measure(const Method& method, const std::string& scan_name, const IndexedMes
   const auto start = std::chrono::steady_clock::now();
   const IndexedMesh mesh = method.run(scan, nodes);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const MeshDistances distances = measure_distances(mesh, scan, DistanceOptions(), execution);
+  const MeshDistances distances = measure_distances(mesh, scan, usual_distance_samples, execution);
   const ShapeDescriptors shape = describe_shape(mesh, execution);
   const ShapeDescriptors original = describe_shape(scan, execution);
   const MeshQuality quality = measure_quality(mesh);

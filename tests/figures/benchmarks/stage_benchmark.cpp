@@ -193,7 +193,7 @@ void measure_to_scan(benchmark::State& state) {
   const IndexedMesh& scan = scan_of(100000);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        measure_distances(coarse, scan, to_scan, DistanceOptions(), execution));
+        measure_distances(coarse, scan, to_scan, usual_distance_samples, execution));
   }
   count(state, state.range(0));
 }
