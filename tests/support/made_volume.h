@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -25,13 +26,23 @@ struct MadeVolume {
     return labels[(static_cast<std::size_t>(z) * counts[1] + y) * counts[0] + x];
   }
 
-  /// Voxels whose middles `is_inside` holds, lattice coordinates, get the label; says how many.
+  /// Voxels whose middles `is_inside` holds, lattice coordinates, get the label; says how many. It
+  /// holds none outside of the box from `least` to `most`.
   template <class Inside>
-  std::int64_t fill(std::uint32_t label, const Inside& is_inside) {
+  std::int64_t fill_within(std::uint32_t label, const Vector3& least, const Vector3& most,
+                           const Inside& is_inside) {
+    std::array<int, 3> begin{}, end{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Eigen::Index>(k);
+      begin[k] = static_cast<int>(
+          std::clamp(std::floor(least[axis]), 0.0, static_cast<double>(counts[k])));
+      end[k] =
+          static_cast<int>(std::clamp(std::ceil(most[axis]), 0.0, static_cast<double>(counts[k])));
+    }
     std::int64_t count = 0;
-    for (int z = 0; z < counts[2]; ++z) {
-      for (int y = 0; y < counts[1]; ++y) {
-        for (int x = 0; x < counts[0]; ++x) {
+    for (int z = begin[2]; z < end[2]; ++z) {
+      for (int y = begin[1]; y < end[1]; ++y) {
+        for (int x = begin[0]; x < end[0]; ++x) {
           if (!is_inside(Vector3(x + 0.5, y + 0.5, z + 0.5))) continue;
           at(x, y, z) = label;
           ++count;
@@ -40,11 +51,17 @@ struct MadeVolume {
     }
     return count;
   }
+  template <class Inside>
+  std::int64_t fill(std::uint32_t label, const Inside& is_inside) {
+    const Vector3 whole(counts[0], counts[1], counts[2]);
+    return fill_within(label, Vector3::Zero(), whole, is_inside);
+  }
   std::int64_t fill_ball(std::uint32_t label, const Vector3& middle, double radius) {
-    return fill(label, [&](const Vector3& p) { return (p - middle).norm() < radius; });
+    return fill_within(label, middle.array() - radius, middle.array() + radius,
+                       [&](const Vector3& p) { return (p - middle).norm() < radius; });
   }
   std::int64_t fill_box(std::uint32_t label, const Vector3& least, const Vector3& most) {
-    return fill(label, [&](const Vector3& p) {
+    return fill_within(label, least, most, [&](const Vector3& p) {
       return (p - least).minCoeff() > 0.0 && (most - p).minCoeff() > 0.0;
     });
   }
@@ -53,6 +70,7 @@ struct MadeVolume {
   template <class Value>
   std::string bytes(bool big_endian = false) const {
     std::string text;
+    text.reserve(labels.size() * sizeof(Value));
     for (const std::uint32_t label : labels) {
       const auto value = static_cast<std::uint64_t>(static_cast<Value>(label));
       for (std::size_t k = 0; k < sizeof(Value); ++k) {
