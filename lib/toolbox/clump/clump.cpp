@@ -107,7 +107,7 @@ std::size_t group_count(const std::vector<Sphere>& spheres) {
     std::vector<std::size_t> open = {start};
     seen[start] = 1;
     while (!open.empty()) {
-      const Sphere sphere = spheres[open.back()];
+      const Sphere& sphere = spheres[open.back()];
       open.pop_back();
       for (std::size_t other = 0; other < spheres.size(); ++other) {
         if (seen[other] != 0 || sphere.distance(spheres[other].centre) > spheres[other].radius) {

@@ -286,6 +286,7 @@ ScanContacts::Errors ScanContacts::errors_of(const IndexedMesh& remesh,
                                              const Execution& execution) const {
   const auto distances = [](const std::vector<FirstTouch>& touches) {
     std::vector<double> list;
+    list.reserve(touches.size());
     for (const FirstTouch& one : touches) list.push_back(one.distance);
     return list;
   };

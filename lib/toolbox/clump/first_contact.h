@@ -84,7 +84,7 @@ class ContactHeights {
 
   /// Returns the contacts of this body, below, with another one of the same reach, above; in the
   /// same order. Slopes are differences over two pixels, a 64th of the reach.
-  std::vector<FirstTouch> touches(const ContactHeights& above, const Execution& execution) const;
+  std::vector<FirstTouch> touches(const ContactHeights& other, const Execution& execution) const;
 
  private:
   struct Map {

@@ -99,6 +99,7 @@ std::string walls_msh(const ConformingGrains& grains, const std::vector<Label>& 
     surfaces.push_back({name + side_text(inner, labels), std::move(members), {inner, outer}});
   }
   std::vector<MeshPart> volumes;
+  volumes.reserve(labels.size());
   for (const Label label : labels) volumes.push_back({"grain_" + std::to_string(label), {}});
   return msh_of_parts(grains.points, triangles, surfaces, {}, volumes);
 }
@@ -216,6 +217,7 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
 std::vector<Sentence> conforming_warnings(const ConformingGrains& grains,
                                           const std::vector<Label>& labels) {
   std::vector<std::string> names;
+  names.reserve(labels.size());
   for (const Label label : labels) names.push_back(std::to_string(label));
   return warnings_of(grains, "grain", names, ", or segment the volume with less noise.");
 }

@@ -31,6 +31,7 @@ constexpr std::int64_t fewest_voxels = 64;  ///< a cube of 4; smoothing halves s
 /// Returns the edge length for each grain, shorter for small ones.
 std::vector<double> edges_below(double most, const std::vector<double>& volumes) {
   std::vector<double> edges;
+  edges.reserve(volumes.size());
   for (const double volume : volumes) {
     edges.push_back(std::min(most, portable::cbrt(volume) / edges_across));
   }
@@ -266,7 +267,7 @@ ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions&
   dense.refine(execution.part(0.0, 0.1));
   remesh_walls(DenseWalls(std::move(dense.mesh())), volumes, std::move(edges), least, options.nodes,
                true, result, execution.part(0.1, 0.95));
-  fragments.walls = result;
+  fragments.walls = static_cast<const WallComplex&>(result);
   measure_fragments(fragments, execution.part(0.95, 1.0));
   return result;
 }

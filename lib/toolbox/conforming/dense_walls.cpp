@@ -206,6 +206,7 @@ DenseWalls::DenseWalls(WallComplex walls) : walls_(std::move(walls)) {
   find_normals();
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the faces of voxels are freed at its end
 DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geometry,
                        const Execution& execution) {
   {

@@ -153,6 +153,7 @@ std::vector<ConvexBody> bodies_of(const IndexedMesh& mesh, const IndexedMesh& sc
   // The scan's hulls may need fewer parts than the mesh's, whose edges are rounder.
   groups = Joining(std::move(groups), cost, execution.part(0.9, 0.95)).run(count);
   std::vector<ConvexBody> bodies;
+  bodies.reserve(groups.size());
   for (PieceGroup& group : groups) bodies.push_back(std::move(group.body));
   return bodies;
 }

@@ -111,7 +111,8 @@ void add_dent_cuts(const CutSolid& solid, const ConvexBody& body, const Eigen::M
     chosen.push_back(points[deepest]);
     // Half of the 26 directions to a cube's faces, edges and corners.
     for (int k = 14; k < 27; ++k) {
-      add_plane(axes * Vector3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1), points[deepest], planes);
+      const Eigen::Vector3i direction(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1);
+      add_plane(axes * direction.cast<double>(), points[deepest], planes);
     }
   }
 }

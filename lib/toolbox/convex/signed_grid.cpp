@@ -19,7 +19,7 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
         static_cast<int>(std::ceil(size[axis] / spacing_)) + 3;
   }
   values_.resize(index(0, 0, counts_[2]));
-  const auto rows = static_cast<std::size_t>(counts_[1] * counts_[2]);
+  const auto rows = static_cast<std::size_t>(counts_[1]) * static_cast<std::size_t>(counts_[2]);
   execution.parallel_for(rows, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const int j = static_cast<int>(row) % counts_[1];

@@ -56,8 +56,9 @@ std::string rose_figure(const std::vector<Vector3>& directions, Eigen::Index rig
         longest * static_cast<double>(counts[k % half_sectors]) / static_cast<double>(most);
     const std::string reach = number(radius);
     const double turn = static_cast<double>(k) / (2.0 * half_sectors);
-    svg += "<path d=\"M 150 150 L " + point(radius, turn) + " A " + reach + " " + reach +
-           " 0 0 0 " + point(radius, turn + 0.5 / half_sectors) +
+    svg += "<path d=\"M 150 150 L ";
+    svg += point(radius, turn) + " A " + reach + " " + reach + " 0 0 0 ";
+    svg += point(radius, turn + 0.5 / half_sectors) +
            " Z\" fill=\"#0a58b4\" stroke=\"#fff\" stroke-width=\"0.5\"/>\n";
   }
   svg += std::string("<text x=\"290\" y=\"155\" text-anchor=\"end\">") + axis_names[right] +

@@ -111,7 +111,8 @@ std::vector<Vector3> points_in(const IndexedMesh& mesh, double volume, std::size
       for (double n = std::ceil((ends[k] - low.z()) / spacing - shift);; ++n) {
         const double z = low.z() + spacing * (n + shift);
         if (!(z < ends[k + 1])) break;
-        points.emplace_back(low.x() + spacing * static_cast<double>(line / columns),
+        const std::size_t row = line / columns;
+        points.emplace_back(low.x() + spacing * static_cast<double>(row),
                             low.y() + spacing * static_cast<double>(line % columns), z);
       }
     }

@@ -572,6 +572,7 @@ void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
 
 BoxGrid grid_of(const std::vector<Part>& parts) {
   std::vector<BoxGrid::Box> boxes;
+  boxes.reserve(parts.size());
   for (const Part& part : parts) boxes.emplace_back(part.box.low, part.box.high);
   return BoxGrid(std::move(boxes));
 }

@@ -19,7 +19,7 @@ namespace {
 
 /// Returns the options of a job that must be equal when it is started again.
 template <class Job>
-std::string call_text(const char* format, const char* files, const Job& job, Json options) {
+std::string call_text(const char* format, const char* files, const Job& job, const Json& options) {
   Json call = {{"format", format},       {"made_by", made_by()},
                {files, job.format},      {"frame", key_of(job.frame.frame)},
                {"size", job.frame.size}, {"scale", job.frame.scale},

@@ -58,7 +58,7 @@ class BodyGrains : public GrainSource {
 
  private:
   std::string name_of(std::size_t body) const { return path_ + "/" + std::to_string(body + 1); }
-  std::string row_of(std::size_t body, const std::string& file) const;
+  std::string row_of(std::size_t number, const std::string& file) const;
   /// Returns a warning on spikes of the bodies that are taken; empty: there are none.
   std::string stray_vertices() const;
 

@@ -51,7 +51,7 @@ void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real
 
 /// Makes the grains: a file each, and grown.csv with a row each. Throws as run_job and GrainGrower,
 /// and for the first grain that cannot be made.
-GrownSample grow_grains(const GrowJob& job, RealGrains real, const SampleGrids& grids,
+GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
                         const JobHost& host);
 
 }  // namespace wscvt

@@ -33,7 +33,7 @@ struct RemeshJob {
 
 /// Throws Error(InvalidInput) for options that are out of range or do not go together, except those
 /// of volumes, see check_volume_options.
-void check_job(const RemeshJob& options);
+void check_job(const RemeshJob& job);
 
 /// Returns the job. Each file of a grain has the bytes that remesh, write_mesh, write_nodes and
 /// write_distance_grid give for the grain alone. The tables are grains.csv; shape.csv if shapes are
