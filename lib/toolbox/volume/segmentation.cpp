@@ -466,7 +466,7 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
 void note_cut_off(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
                   const VoxelCounts& sizes, Segmentation& result) {
   constexpr double most = 0.6;
-  constexpr double least_noise = 0.01;  // of the contrast
+  constexpr double least_noise = 0.01;  // of the range of values
   std::vector<std::uint64_t> counts(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0);
   std::uint64_t all = 0;
   for (std::size_t k = 0; k < grey.size(); ++k) {

@@ -272,8 +272,6 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
   }
 }
 
-}  // namespace
-
 /// Adds a doubt on grey values that were cut off at the least or the largest.
 void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
   const auto add = [&](double fraction, bool is_least) {
@@ -338,6 +336,8 @@ void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<S
                      mention("phases", "1") + ".");
   }
 }
+
+}  // namespace
 
 std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   std::vector<Sentence> doubts;
