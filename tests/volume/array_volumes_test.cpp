@@ -563,6 +563,23 @@ class Hdf5Volumes : public ArrayVolumes {
   }
 };
 
+// What is not read is not denied: half precision, and a link to a file that could be any other's.
+TEST_F(Hdf5Volumes, SaysWhichNumbersAndLinksAreNotRead) {
+  const hid_t half = H5Tcopy(H5T_IEEE_F32LE);
+  H5Tset_fields(half, 15, 10, 5, 0, 10);
+  H5Tset_size(half, 2);
+  H5Tset_ebias(half, 15);
+  add("half", half, {3, 5, 7}, made_.bytes<std::uint16_t>());
+  H5Tclose(half);
+  expect_refused("a.h5", {"float32 or float64", "Links to other files are not followed"});
+  add("labels", H5T_NATIVE_UINT16, {3, 5, 7}, made_.bytes<std::uint16_t>());
+  expect_made("a.h5");
+  const hid_t file = H5Fcreate(path("b.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  ASSERT_GE(H5Lcreate_external("a.h5", "/labels", file, "link", H5P_DEFAULT, H5P_DEFAULT), 0);
+  H5Fclose(file);
+  expect_refused("b.h5", {"float32 or float64", "Links to other files are not followed"});
+}
+
 TEST_F(Hdf5Volumes, AreReadByThePathOfTheirDataSet) {
   for (const hsize_t chunk : {0, 1, 2, 3}) {
     std::filesystem::remove(path("a.h5"));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "toolbox/volume/itk_filters.h"
@@ -124,16 +125,33 @@ std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
-/// Returns the histogram of the differences of neighbours along x; `values`: the number of greys.
+/// Returns the histogram of voxels that were scanned. `outside`: 1 for the others; empty: none.
+std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& outside) {
+  std::vector<std::uint64_t> counts(
+      std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (outside.empty() || outside[k] == 0) ++counts[grey[k]];
+  }
+  return counts;
+}
+
+/// Returns the histogram of the differences of neighbours along x for which counts(voxel, voxel
+/// before it) is true; `values`: the number of greys.
+template <class Counts>
 std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
-                                          std::size_t values) {
+                                          std::size_t values, const Counts& counts) {
   std::vector<std::uint64_t> differences(values, 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width > 0) {
-      ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
-    }
+    if (k % width == 0 || !counts(k, k - 1)) continue;
+    ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
   }
   return differences;
+}
+
+std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
+                                          std::size_t values) {
+  return differences_of(grey, width, values, [](std::size_t, std::size_t) { return true; });
 }
 
 /// Returns the histogram of the voxels whose six neighbours are alike. Voxels at the surface of
@@ -249,10 +267,7 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
                      bool has_noise) {
   GreyCounts counts;
   counts.has_noise = has_noise;
-  counts.all.assign(std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (outside.empty() || outside[k] == 0) ++counts.all[grey[k]];
-  }
+  counts.all = counts_of_all(grey, outside);
   counts.inside = counts_inside(grey, outside, sizes, counts.all);
   return counts;
 }
@@ -467,40 +482,33 @@ void note_cut_off(const std::vector<std::uint16_t>& grey, const std::vector<std:
                   const VoxelCounts& sizes, Segmentation& result) {
   constexpr double most = 0.6;
   constexpr double least_noise = 0.01;  // of the range of values
-  std::vector<std::uint64_t> counts(std::size_t{std::numeric_limits<std::uint16_t>::max()} + 1, 0);
-  std::uint64_t all = 0;
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (!outside.empty() && outside[k] != 0) continue;
-    ++counts[grey[k]];
-    ++all;
-  }
+  const std::vector<std::uint64_t> counts = counts_of_all(grey, outside);
   const auto is_some = [](std::uint64_t count) { return count > 0; };
   if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return;
   const auto parted = static_cast<std::size_t>(otsu_level(counts));
-  std::array<std::vector<std::uint64_t>, 2> differences;
-  for (auto& side : differences) side.assign(counts.size(), 0);
-  const auto width = static_cast<std::size_t>(sizes[0]);
-  for (std::size_t k = 1; k < grey.size(); ++k) {
-    if (k % width == 0 || (!outside.empty() && (outside[k] != 0 || outside[k - 1] != 0))) continue;
-    const bool is_above = grey[k] >= parted;
-    if (is_above != (grey[k - 1] >= parted)) continue;
-    ++differences[is_above ? 1 : 0][static_cast<std::size_t>(std::abs(grey[k] - grey[k - 1]))];
-  }
-  std::uint64_t below = 0;
-  for (std::size_t k = 0; k < parted; ++k) below += counts[k];
   const std::size_t least = quantile_of(counts, 0.0);
   const std::size_t largest = quantile_of(counts, 1.0);
-  const auto fraction = [&](std::size_t value, std::uint64_t side, std::size_t other) {
-    const double noise = least_noise * static_cast<double>(largest - least);
-    const auto found = static_cast<double>(counts[value]) / static_cast<double>(side);
-    // Without neighbours on the other side its noise is not known.
-    const bool is_noisy =
-        std::any_of(differences[other].begin(), differences[other].end(), is_some) &&
-        static_cast<double>(quantile_of(differences[other], 0.5)) > noise;
-    return found > most && is_noisy ? found : 0.0;
+  const auto has_noise = [&](bool above) {
+    const auto is_on_side = [&](std::size_t k) {
+      return (outside.empty() || outside[k] == 0) && (grey[k] >= parted) == above;
+    };
+    const std::vector<std::uint64_t> differences = differences_of(
+        grey, static_cast<std::size_t>(sizes[0]), counts.size(),
+        [&](std::size_t a, std::size_t b) { return is_on_side(a) && is_on_side(b); });
+    // Without neighbours the noise is not known.
+    return std::any_of(differences.begin(), differences.end(), is_some) &&
+           static_cast<double>(quantile_of(differences, 0.5)) >
+               least_noise * static_cast<double>(largest - least);
   };
-  result.fraction_of_least = fraction(least, below, 1);
-  result.fraction_of_largest = fraction(largest, all - below, 0);
+  const auto fraction_of = [&](std::size_t value, std::size_t begin, std::size_t end) {
+    const auto first = counts.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = counts.begin() + static_cast<std::ptrdiff_t>(end);
+    const std::uint64_t side = std::accumulate(first, last, std::uint64_t{0});
+    const double fraction = static_cast<double>(counts[value]) / static_cast<double>(side);
+    return fraction > most && has_noise(begin == 0) ? fraction : 0.0;
+  };
+  result.fraction_of_least = fraction_of(least, 0, parted);
+  result.fraction_of_largest = fraction_of(largest, parted, counts.size());
 }
 
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
