@@ -273,7 +273,11 @@ TEST(Distances, RefusesWhatCannotBeMeasured) {
                InvalidInput);
   EXPECT_ERROR(measure_distances(IndexedMesh(), box, usual_distance_samples, Execution(1)),
                InvalidInput);
-  EXPECT_ERROR(measure_distances(box, box, 0, Execution(1)), InvalidInput);
+  for (const std::size_t samples : {0, 100'000'001}) {
+    EXPECT_ERROR(measure_distances(box, box, samples, Execution(1)), InvalidInput);
+    EXPECT_ERROR(sampled_distances(box, box, samples, Execution(1)), InvalidInput);
+    EXPECT_ERROR(rms_distance(box, box, samples, Execution(1)), InvalidInput);
+  }
 }
 
 TEST(Distances, CanBeCancelled) {

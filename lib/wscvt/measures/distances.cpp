@@ -401,7 +401,11 @@ MeshDistances both_of(const OneSidedDistance& to, const OneSidedDistance& from) 
 }
 
 void check_samples(std::size_t samples) {
-  if (samples == 0) refuse("Distances need at least one sample.");
+  constexpr std::size_t most = 100'000'000;
+  if (samples == 0 || samples > most) {
+    refuse("The number of distance samples is " + std::to_string(samples) +
+           ", but has to be between 1 and " + std::to_string(most) + ".");
+  }
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ struct MeshDistances {
 /// never too large. It is at most 1 %, or 1e-5 of the mesh's size, too small, unless large faces
 /// lie far from the other surface, where the search is bounded.
 ///
-/// Throws Error(InvalidInput) if a mesh has no faces or no area, or `samples` is 0.
+/// Throws Error(InvalidInput) if a mesh has no faces or no area, or `samples` is not in 1 to 1e8.
 MeshDistances measure_distances(const IndexedMesh& mesh, const IndexedMesh& reference,
                                 std::size_t samples, const Execution& execution);
 
