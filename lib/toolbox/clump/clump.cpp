@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -78,10 +79,18 @@ double intersection_over_union(const IndexedMesh& grain, const std::vector<Spher
   const Vector3 low = box.min();
   const Vector3 size = box.sizes();
   const double step = portable::cbrt(size.prod() / points);
+  std::array<std::vector<double>, 3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double place = 0.5 * step;
+    while (place < size[static_cast<Eigen::Index>(axis)]) {
+      places[axis].push_back(place);
+      place += step;
+    }
+  }
   std::vector<Vector3> grid;
-  for (double x = 0.5 * step; x < size.x(); x += step) {
-    for (double y = 0.5 * step; y < size.y(); y += step) {
-      for (double z = 0.5 * step; z < size.z(); z += step) grid.push_back(low + Vector3(x, y, z));
+  for (const double x : places[0]) {
+    for (const double y : places[1]) {
+      for (const double z : places[2]) grid.push_back(low + Vector3(x, y, z));
     }
   }
   const std::vector<char> inside = are_inside(grain, grid, execution);

@@ -104,11 +104,11 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   constexpr double most_points = 20000.0;
   const double step = std::max(spacing, portable::cbrt(box.sizes().prod() / most_points));
   const Vector3 middle = 0.5 * (box.min() + box.max());
-  const Eigen::Array3d half = (box.sizes() / (2.0 * step)).array().ceil() + 1.0;
+  const Eigen::Array3i half = (box.sizes() / (2.0 * step)).array().ceil().cast<int>() + 1;
   std::vector<Vector3> all;
-  for (double i = -half[0]; i <= half[0]; ++i) {
-    for (double j = -half[1]; j <= half[1]; ++j) {
-      for (double k = -half[2]; k <= half[2]; ++k) all.push_back(middle + step * Vector3(i, j, k));
+  for (int i = -half[0]; i <= half[0]; ++i) {
+    for (int j = -half[1]; j <= half[1]; ++j) {
+      for (int k = -half[2]; k <= half[2]; ++k) all.push_back(middle + step * Vector3(i, j, k));
     }
   }
   const std::vector<char> inside = are_inside(mesh, all, execution);
@@ -330,9 +330,11 @@ class Growth {
 
   /// Reduces the weight of spheres that bulge out to the weight of gaps.
   SphereFit let_down(SphereFit fit) const {
-    for (double weight = 0.5 * held_weight; weight >= 1.0; weight *= 0.5) {
+    double weight = 0.5 * held_weight;
+    while (weight >= 1.0) {
       fit.set_inner_weight(weight);
       sweep(fit, options_.inside ? 2 : 12);
+      weight *= 0.5;
     }
     return fit;
   }

@@ -59,10 +59,11 @@ GrainScan NamedGrains::read(std::size_t grain, bool /*with_pictures*/, const Exe
 
 void JoinedGrains::add(std::unique_ptr<GrainSource> source) {
   const std::string own = source->unit();
-  for (const auto& other : sources_) {
-    const std::string known = other->unit();
-    if (known.empty() || own.empty() || known == own) continue;
-    refuse("Lengths of \"" + other->file(0) + "\" are in " + known + ", and of \"" +
+  const auto other = std::find_if(sources_.begin(), sources_.end(), [&](const auto& one) {
+    return !own.empty() && !one->unit().empty() && one->unit() != own;
+  });
+  if (other != sources_.end()) {
+    refuse("Lengths of \"" + (*other)->file(0) + "\" are in " + (*other)->unit() + ", and of \"" +
            source->file(0) + "\" in " + own +
            ". One table has one unit: use one call for each, or convert one.");
   }

@@ -57,7 +57,7 @@ void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& 
 /// several threads at once. Throws as run_job and choose_templates, and for the first template that
 /// cannot be made.
 MadeTemplates make_templates(
-    const TemplateJob& job, const DescribedSample& sample,
+    const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
     const JobHost& host);
 
