@@ -8,6 +8,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
+tests=$((jobs + 1))  # at a time: those of windows wait
 meshlab_source=$PWD/build/meshlab-source
 newer_source=$PWD/build/meshlab-source-trixie
 newest_source=$PWD/build/meshlab-source-sid
@@ -53,7 +54,7 @@ for step in "$@"; do
       fi
       configure_and_build release -DWSCVT_BUILD_BENCHMARKS=OFF -DWSCVT_BUILD_STUDY=OFF \
         "-DMESHLAB_OTHER_SOURCE_DIRS=$others"
-      ctest --preset release -j "$jobs" ;;
+      ctest --preset release -j "$tests" ;;
     extras)
       # Each file alone. Benchmarks and study are read too, so that they do not rot, but not built.
       commands_file_by_file -DWSCVT_BUILD_BENCHMARKS=ON -DWSCVT_BUILD_STUDY=ON
@@ -64,7 +65,7 @@ for step in "$@"; do
       WSCVT_PROPERTY_SEED=$(date +%Y%m%d) WSCVT_PROPERTY_COUNT=4000 build/release/tests/property_tests ;;
     sanitizers)
       configure_and_build asan-ubsan -DCMAKE_CXX_FLAGS_NONE=
-      ctest --preset asan-ubsan -j "$jobs" ;;
+      ctest --preset asan-ubsan -j "$tests" ;;
     replay)
       # Of the sanitizers, what was found by fuzzing, the rooms that read what users bring, and those
       # of seeds and nodes, which keep references to what they are given: minutes instead of an hour. The checks of
@@ -74,8 +75,8 @@ for step in "$@"; do
       cmake --build --preset asan-ubsan -j "$jobs" --target \
         replay_mesh_file replay_coefficient_file replay_soup replay_remesh replay_volume_file \
         base_tests sphere_tests mesh_files_tests repair_tests exchange_tests tessellation_tests nodes_tests
-      ctest --preset asan-ubsan -j "$jobs" -R '^replay_'
-      ctest --preset asan-ubsan -j "$jobs" -L '^(base|sphere|mesh_files|repair|exchange|tessellation|nodes)$' ;;
+      ctest --preset asan-ubsan -j "$tests" -R '^replay_'
+      ctest --preset asan-ubsan -j "$tests" -L '^(base|sphere|mesh_files|repair|exchange|tessellation|nodes)$' ;;
     format)
       sources lib filter_wscvt tests meshes | xargs clang-format --dry-run -Werror ;;
     tidy)
