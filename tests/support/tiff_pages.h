@@ -12,7 +12,7 @@ namespace wscvt::test {
 
 /// How pages of a TIFF are written.
 struct TiffPages {
-  std::string mode = "w";  ///< "w", "wb", "wl", "w8"
+  std::string mode = "w";  ///< "w", "wb", "wl", "w8"; "a" adds pages to a file
   int width = 0;
   int height = 0;
   int bits = 16;
@@ -24,6 +24,9 @@ struct TiffPages {
   int tile = 0;  ///< side of a tile; 0: strips
   int photometric = PHOTOMETRIC_MINISBLACK;
   int orientation = ORIENTATION_TOPLEFT;
+  int extra = -1;           ///< kind of the last sample, EXTRASAMPLE_...; -1: none is extra
+  int marks = 0;            ///< bits of NewSubfileType
+  int behind_first = 0;     ///< number of the pages after the first that are its SubIFDs
   std::string text;         ///< of the first page
   double resolution = 0.0;  ///< along x; half of it along y; 0: none
   int resolution_unit = RESUNIT_INCH;
@@ -46,6 +49,15 @@ inline void write_tiff(const std::string& path, const TiffPages& as,
                  as.is_planar ? PLANARCONFIG_SEPARATE : PLANARCONFIG_CONTIG);
     TIFFSetField(file, TIFFTAG_COMPRESSION, as.compression);
     TIFFSetField(file, TIFFTAG_ORIENTATION, as.orientation);
+    TIFFSetField(file, TIFFTAG_SUBFILETYPE, as.marks);
+    if (as.extra >= 0) {
+      const auto kind = static_cast<std::uint16_t>(as.extra);
+      TIFFSetField(file, TIFFTAG_EXTRASAMPLES, 1, &kind);
+    }
+    if (k == 0 && as.behind_first > 0) {
+      const std::vector<std::uint64_t> places(static_cast<std::size_t>(as.behind_first));
+      TIFFSetField(file, TIFFTAG_SUBIFD, as.behind_first, places.data());
+    }
     if (k == 0 && !as.text.empty()) {
       TIFFSetField(file, TIFFTAG_IMAGEDESCRIPTION, as.text.c_str());
     }

@@ -105,6 +105,113 @@ class TiffVolume : public test::VolumeFolder {
   }
 };
 
+// Of microscopes and of tifffile: previews, pyramids and masks stand between the slices.
+TEST_F(TiffVolume, LeavesReducedImagesOut) {
+  const auto expect_left_out = [&](int count) {
+    expect_made("a.tif");
+    ASSERT_EQ(notes("a.tif").size(), 2U);
+    EXPECT_EQ(notes("a.tif")[0].find("Left out: " + std::to_string(count) + " reduced image"), 0U);
+  };
+  TiffPages small = as();
+  small.width = 4;
+  small.height = 3;
+  small.marks = FILETYPE_REDUCEDIMAGE;
+  const std::string small_page(24, '\1');
+  for (const std::string& page : pages()) {  // as Zeiss' .lsm
+    TiffPages stack = as();
+    stack.mode = fs::exists(path("a.tif")) ? "a" : "w";
+    write_tiff(path("a.tif"), stack, {page});
+    small.mode = "a";
+    write_tiff(path("a.tif"), small, {small_page});
+  }
+  expect_left_out(3);
+  // Unmarked: a pyramid of half the size behind the slices, or one preview.
+  small.marks = 0;
+  for (const std::size_t levels : {3U, 1U}) {
+    write_tiff(path("a.tif"), as(), pages());
+    write_tiff(path("a.tif"), small, std::vector<std::string>(levels, small_page));
+    expect_left_out(static_cast<int>(levels));
+  }
+  TiffPages stack = as();
+  stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
+  stack.mode = "a";
+  small.mode = "w";
+  write_tiff(path("a.tif"), small, {small_page});
+  write_tiff(path("a.tif"), stack, pages());
+  expect_left_out(1);
+  // In a folder, and behind a page.
+  fs::create_directory(path("s"));
+  small.mode = "a";
+  for (int z = 0; z < 3; ++z) {
+    write_tiff(path("s/" + std::to_string(z) + ".tif"), as(), {page(z)});
+    write_tiff(path("s/" + std::to_string(z) + ".tif"), small, {small_page});
+  }
+  expect_made("s");
+  stack = as();
+  stack.behind_first = 1;
+  write_tiff(path("a.tif"), stack, {page(0), page(2), page(1), page(2)});
+  expect_left_out(1);
+  // A mask is as large as its page.
+  TiffPages mask = as();
+  mask.mode = "a";
+  mask.marks = FILETYPE_MASK;
+  write_tiff(path("a.tif"), as(), pages());
+  write_tiff(path("a.tif"), mask, {page(1)});
+  expect_left_out(1);
+}
+
+TEST_F(TiffVolume, ReadsPagesThatAreReducedByTheirMarkAlone) {
+  TiffPages stack = as();
+  stack.marks = FILETYPE_REDUCEDIMAGE;
+  expect_made_of(stack, pages());
+  EXPECT_EQ(notes("a.tif").size(), 1U);
+  write_tiff(path("a.tif"), as(), {page(0), page(1)});
+  stack.mode = "a";
+  write_tiff(path("a.tif"), stack, {page(2)});
+  expect_made("a.tif");
+  EXPECT_EQ(open_volume(path("a.tif"))->warnings().size(), 1U);
+  // No previews: larger, between the slices, or of another volume.
+  TiffPages other = as();
+  other.mode = "a";
+  stack = as();
+  stack.mode = "a";
+  write_tiff(path("a.tif"), as(), pages());
+  other.width = 8;
+  write_tiff(path("a.tif"), other, {std::string(80, '\1')});
+  expect_refused("a.tif", {"the page 4 of", "but the first has"});
+  other.width = 3;
+  other.height = 4;
+  write_tiff(path("a.tif"), as(), {page(0), page(1)});
+  write_tiff(path("a.tif"), other, {std::string(24, '\1')});
+  write_tiff(path("a.tif"), stack, {page(2)});
+  expect_refused("a.tif", {"the page 3 of", "but the first has"});
+  write_tiff(path("a.tif"), as(), pages());
+  write_tiff(path("a.tif"), other, std::vector<std::string>(3, std::string(24, '\1')));
+  expect_refused("a.tif", {"the page 4 of", "but the first has"});
+}
+
+TEST_F(TiffVolume, LeavesAConstantAlphaOut) {
+  TiffPages stack = as();
+  stack.samples = 2;
+  for (const int kind : {EXTRASAMPLE_ASSOCALPHA, EXTRASAMPLE_UNASSALPHA}) {
+    stack.extra = kind;
+    std::vector<std::string> content;
+    for (const std::string& grey : pages()) {
+      content.emplace_back();
+      for (std::size_t k = 0; k < grey.size(); k += 2) {
+        content.back() += grey.substr(k, 2) + "\xff\xff";
+      }
+    }
+    expect_made_of(stack, content);
+    EXPECT_EQ(notes("a.tif")[0], "Left out: the channel alpha, which is constant.");
+    content.back().back() = '\0';
+    expect_refused_of(stack, content, {"alpha, that is not constant", "--select channel=1"});
+    expect_made("a.tif", channel(1));
+  }
+  stack.extra = EXTRASAMPLE_UNSPECIFIED;
+  expect_refused_of(stack, std::vector<std::string>(3, std::string(140, '\1')), {"2 channels"});
+}
+
 // Griottes 2 and its kind: channels and frames stand between the slices.
 TEST_F(TiffVolume, NamesImageJsChannelsAndFramesAndReadsTheChosenOnes) {
   TiffPages stack = as();

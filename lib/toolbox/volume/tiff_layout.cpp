@@ -373,8 +373,8 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
 }
 
 /// Computes the page of each plane, in the order of `layout.axes`.
-void read_pages(const OmeText& text, std::int64_t pages, const std::string& path,
-                TiffLayout& layout) {
+void read_pages(const OmeText& text, std::int64_t pages, std::int64_t in_file,
+                const std::string& path, TiffLayout& layout) {
   std::int64_t planes = 1;
   for (const VolumeAxis& axis : layout.axes) {
     constexpr std::int64_t most = 100000000;
@@ -411,8 +411,8 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
     const std::int64_t count =
         count_of(part.where, "PlaneCount", has_page ? 1 : planes - plane, 0, path);
     for (std::int64_t k = 0; k < count; ++k) {
-      if (plane + k >= planes || first + k >= pages) {
-        refuse_volume(path, "has " + std::to_string(pages) + " pages, but OME's text places " +
+      if (plane + k >= planes || first + k >= in_file) {
+        refuse_volume(path, "has " + std::to_string(in_file) + " pages, but OME's text places " +
                                 "planes outside of them. Export it again.");
       }
       layout.pages[static_cast<std::size_t>(plane + k)] = first + k;
@@ -424,8 +424,9 @@ void read_pages(const OmeText& text, std::int64_t pages, const std::string& path
   }
 }
 
-TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_t samples,
+TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffPageShape& page,
                          const std::string& path) {
+  const std::int64_t samples = page.samples;
   if (xml.size() > std::size_t{1} << 28) refuse_volume(path, "has a text of more than 256 MB.");
   const OmeText text = ome_text_of(xml, path);
   if (text.images > 1) {
@@ -460,7 +461,7 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
       layout.axes.push_back({AxisKind::Frame, count_of(text.pixels, key, 1, 1, path)});
     }
   }
-  read_pages(text, pages, path, layout);
+  read_pages(text, pages, page.in_file, path, layout);
   read_voxel_size(text.pixels, path, layout);
   return layout;
 }
@@ -471,7 +472,8 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, std::int64_
 
 namespace {
 
-TiffLayout layout_of_ome(const std::string&, std::int64_t, std::int64_t, const std::string& path) {
+TiffLayout layout_of_ome(const std::string&, std::int64_t, const TiffPageShape&,
+                         const std::string& path) {
   refuse_volume(path,
                 "has OME XML, but this program was built without Expat. Install "
                 "libexpat1-dev and build it again, or save the volume as .nrrd.");
@@ -487,7 +489,7 @@ TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPa
   if (text.rfind("ImageJ=", 0) == 0) return layout_of_imagej(text, pages, samples, path);
   const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   if (first != std::string::npos && text[first] == '<' && text.find("<OME") != std::string::npos) {
-    return layout_of_ome(text, pages, samples, path);
+    return layout_of_ome(text, pages, page, path);
   }
   if (first != std::string::npos && text[first] == '{') {
     const Json json = Json::parse(text, nullptr, false);

@@ -31,19 +31,20 @@ struct TiffLayout {
   std::vector<Sentence> more_notes;  ///< on other things
 };
 
-/// The pages of a TIFF.
+/// The pages of a TIFF that are slices.
 struct TiffPageShape {
   std::int64_t width = 1;
   std::int64_t height = 1;
   std::int64_t samples = 1;  ///< numbers per voxel
+  std::int64_t in_file = 1;  ///< number of the last of them in the file, from 1
 };
 
 /// Reads what the text of one of many slices says of all: ImageJ's unit, distance of slices and
 /// calibration. Of another text nothing: the slice is no stack.
 TiffLayout slice_layout(const std::string& description);
 
-/// Reads the layout of a file `path` with `pages` pages from its first page's text. Throws
-/// Error(InputOutput), naming the file, if the text contradicts the pages, or has unknown
+/// Reads the layout of a file `path` with `pages` pages of slices from its first page's text.
+/// Throws Error(InputOutput), naming the file, if the text contradicts the pages, or has unknown
 /// dimensions or files.
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path);

@@ -63,7 +63,7 @@ class TiffFile {
     return count;
   }
 
-  /// Returns the text that the writing program left on the first page; empty if there is none.
+  /// Returns the text that the writing program left on the current page; empty if there is none.
   std::string description() const {
     char* text = nullptr;
     if (TIFFGetField(tiff_, TIFFTAG_IMAGEDESCRIPTION, &text) == 0 || text == nullptr) return "";
@@ -101,7 +101,8 @@ struct Page {
   int samples = 1;         ///< numbers per voxel
   bool is_planar = false;  ///< samples follow each other, not interleaved
   bool shows_0_as_white = false;
-  bool shows_colours = false;             ///< samples are red, green and blue
+  bool shows_colours = false;  ///< samples are red, green and blue, and none was chosen
+  bool has_alpha = false;      ///< samples are grey and transparency, and none was chosen
   int orientation = ORIENTATION_TOPLEFT;  ///< the first page's counts for all
 
   bool operator==(const Page& other) const {
@@ -160,10 +161,122 @@ Page page_of(const TiffFile& file) {
   page.is_planar = planes == PLANARCONFIG_SEPARATE && samples > 1;
   page.shows_0_as_white = photometric == PHOTOMETRIC_MINISWHITE;
   page.shows_colours = photometric == PHOTOMETRIC_RGB && samples > 2 && !page.is_planar;
+  std::uint16_t extra_samples = 0;
+  std::uint16_t* kinds = nullptr;
+  TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &extra_samples, &kinds);
+  page.has_alpha = samples == 2 && !page.is_planar && extra_samples == 1 &&
+                   (kinds[0] == EXTRASAMPLE_ASSOCALPHA || kinds[0] == EXTRASAMPLE_UNASSALPHA);
   std::uint16_t orientation = ORIENTATION_TOPLEFT;
   TIFFGetField(tiff, TIFFTAG_ORIENTATION, &orientation);
   page.orientation = orientation >= 1 && orientation <= 8 ? orientation : ORIENTATION_TOPLEFT;
   return page;
+}
+
+/// The pages of a file that are slices.
+struct PageList {
+  std::vector<std::uint32_t> slices;  ///< numbers of pages, from 0
+  std::int64_t left_out = 0;          ///< number of reduced images and masks of others
+  std::int64_t marked = 0;  ///< number of slices that are marked as reduced, but are as large
+  std::string text;         ///< of the first slice; without one, of the first page
+};
+
+/// What tells slices from previews.
+struct PageForm {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint16_t bits = 1;
+  std::uint16_t samples = 1;
+  std::uint32_t marks = 0;  ///< bits of NewSubfileType
+
+  bool is_like(const PageForm& other) const {
+    return width == other.width && height == other.height && bits == other.bits &&
+           samples == other.samples;
+  }
+  bool is_marked() const { return (marks & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) != 0; }
+
+  /// Whether it is smaller than `full` by one factor along both axes, up to rounding.
+  bool is_scaled(const PageForm& full) const {
+    const double factor = static_cast<double>(full.width) / width;
+    return factor > 1.5 && std::abs(full.height - factor * height) <= factor;
+  }
+};
+
+/// Reads the forms of all pages, and adds the reduced images behind pages (SubIFDs) to `left_out`.
+std::vector<PageForm> page_forms(const TiffFile& file, std::int64_t& left_out) {
+  std::vector<PageForm> forms;
+  const std::int64_t count = file.pages();
+  if (TIFFSetDirectory(file.get(), 0) == 0) file.fail("has lost pages");
+  for (std::int64_t k = 0; k < count; ++k) {
+    if (k > 0 && TIFFReadDirectory(file.get()) == 0) file.fail("has lost pages");
+    PageForm form;
+    TIFFGetField(file.get(), TIFFTAG_IMAGEWIDTH, &form.width);
+    TIFFGetField(file.get(), TIFFTAG_IMAGELENGTH, &form.height);
+    TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &form.bits);
+    TIFFGetFieldDefaulted(file.get(), TIFFTAG_SAMPLESPERPIXEL, &form.samples);
+    TIFFGetFieldDefaulted(file.get(), TIFFTAG_SUBFILETYPE, &form.marks);
+    std::uint16_t behind = 0;
+    std::uint64_t* places = nullptr;
+    if (TIFFGetField(file.get(), TIFFTAG_SUBIFD, &behind, &places) != 0) left_out += behind;
+    forms.push_back(form);
+  }
+  return forms;
+}
+
+/// Returns the form of which the file has the most voxels in unmarked pages; the first page's if
+/// all are marked.
+PageForm main_form(const std::vector<PageForm>& forms) {
+  std::vector<std::pair<PageForm, double>> kinds;
+  for (const PageForm& form : forms) {
+    if (form.is_marked()) continue;
+    const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const auto& kind) { return kind.first.is_like(form); });
+    const double voxels = static_cast<double>(form.width) * form.height;
+    if (found != kinds.end()) {
+      found->second += voxels;
+    } else {
+      kinds.emplace_back(form, voxels);
+    }
+  }
+  if (kinds.empty()) return forms.front();
+  return std::max_element(kinds.begin(), kinds.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// Finds the slices: all pages but those marked as reduced images or masks, the smaller levels of a
+/// pyramid, and one or two smaller pages before or behind the slices. Other pages of another form
+/// are listed, so that they are refused by name.
+PageList list_pages(const TiffFile& file) {
+  PageList list;
+  const std::vector<PageForm> forms = page_forms(file, list.left_out);
+  TIFFSetDirectory(file.get(), 0);
+  list.text = file.description();
+  const PageForm main = main_form(forms);
+  const auto is_slice = [&](const PageForm& form) {
+    return form.is_like(main) && ((form.marks & FILETYPE_MASK) == 0 || main.is_marked());
+  };
+  const auto first = std::find_if(forms.begin(), forms.end(), is_slice);
+  const auto last = std::find_if(forms.rbegin(), forms.rend(), is_slice).base();
+  const auto slices = std::count_if(first, last, is_slice);
+  const auto outside = static_cast<std::ptrdiff_t>(forms.size()) - (last - first);
+  for (auto form = forms.begin(); form != forms.end(); ++form) {
+    const bool is_smaller = form->width < main.width && form->height < main.height;
+    const bool is_outside = form < first || form >= last;
+    constexpr std::ptrdiff_t most_previews = 2;
+    const bool is_preview =
+        is_smaller && is_outside &&
+        ((outside <= most_previews && outside < slices) || (form >= last && form->is_scaled(main)));
+    if (!is_slice(*form) && (form->is_marked() || is_preview)) {
+      ++list.left_out;
+      continue;
+    }
+    if (form->is_marked() && !main.is_marked()) ++list.marked;
+    list.slices.push_back(static_cast<std::uint32_t>(form - forms.begin()));
+  }
+  TIFFSetDirectory(file.get(), static_cast<tdir_t>(list.slices.front()));
+  const std::string text = file.description();
+  if (!text.empty()) list.text = text;
+  return list;
 }
 
 /// A slice: a page of a file.
@@ -175,13 +288,12 @@ struct SlicePage {
 /// Slices that are pages of one file, or files of one page.
 class TiffStack : public LabelVolume {
  public:
-  /// `sample`: number of the selected sample of each voxel; -1: all colours must be equal.
-  TiffStack(const VolumeGeometry& geometry, const Page& page, int sample,
+  /// `sample`: number of the selected sample of each voxel. Colours must be equal, alpha constant.
+  TiffStack(const VolumeGeometry& geometry, const Page& page, std::int64_t sample,
             std::vector<std::string> files, std::vector<SlicePage> slices)
       : LabelVolume(geometry),
         page_(page),
-        sample_(static_cast<std::uint16_t>(std::max(0, sample))),
-        needs_grey_(sample < 0),
+        sample_(static_cast<std::uint16_t>(page.samples == 1 ? 0 : sample)),
         files_(std::move(files)),
         slices_(std::move(slices)),
         next_row_(page.height),
@@ -321,14 +433,24 @@ class TiffStack : public LabelVolume {
       const std::size_t step = size * static_cast<std::size_t>(page_.samples);
       for (std::size_t x = 0; x < page_.width; ++x) {
         std::memcpy(voxels_.data() + x * size, packed + x * step + sample_ * size, size);
-        if (needs_grey_) check_colours_equal(packed + x * step, size, file_->path());
+        if (page_.shows_colours) check_colours_equal(packed + x * step, size, file_->path());
+        if (page_.has_alpha) check_alpha(std::string(packed + x * step + size, size));
       }
     }
   }
 
+  void check_alpha(const std::string& alpha) {
+    if (alpha_.empty()) alpha_ = alpha;
+    if (alpha == alpha_) return;
+    refuse_volume(file_->path(),
+                  "has a second channel, alpha, that is not constant. If the first has the labels, "
+                  "choose it by " +
+                      mention("select", "channel=1") + ".");
+  }
+
   Page page_;
   std::uint16_t sample_;
-  bool needs_grey_;
+  std::string alpha_;  ///< of the first voxel
   std::vector<std::string> files_;
   std::vector<SlicePage> slices_;
   std::unique_ptr<TiffFile> file_;
@@ -493,7 +615,7 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
 }
 
 /// Returns the positions of the selected slices in a file of pages.
-std::vector<SlicePage> slices_of(const TiffLayout& layout,
+std::vector<SlicePage> slices_of(const TiffLayout& layout, const std::vector<std::uint32_t>& pages,
                                  const std::vector<std::int64_t>& places) {
   std::vector<SlicePage> slices;
   std::int64_t count = 1;
@@ -507,30 +629,39 @@ std::vector<SlicePage> slices_of(const TiffLayout& layout,
       plane += step * (layout.axes[k].kind == AxisKind::Space ? z : places[k]);
       step *= layout.axes[k].count;
     }
-    const std::int64_t page =
-        layout.pages.empty() ? plane : layout.pages[static_cast<std::size_t>(plane)];
-    slices.push_back({0, static_cast<std::uint32_t>(page)});
+    const auto place = static_cast<std::size_t>(plane);
+    slices.push_back(
+        {0, layout.pages.empty() ? pages[place] : static_cast<std::uint32_t>(layout.pages[place])});
   }
   return slices;
 }
 
-void add_notes(const TiffLayout& layout, const VolumeChoice& choice, LabelVolume& volume) {
+void add_notes(const TiffLayout& layout, const PageList& pages, const Page& page,
+               const VolumeChoice& choice, LabelVolume& volume) {
   for (const std::string& note : layout.notes) {
     if (!choice.voxel_size) volume.add_note(note);
   }
   for (const std::string& note : layout.more_notes) volume.add_note(note);
+  if (pages.left_out > 0) {
+    volume.add_note("Left out: " + std::to_string(pages.left_out) + " reduced image" +
+                    (pages.left_out == 1 ? "" : "s") + " (preview, pyramid or mask).");
+  }
+  if (pages.marked > 0) {
+    volume.add_warning(std::to_string(pages.marked) +
+                       " of the pages are marked as reduced images, "
+                       "but are as large as the others. They were read as slices.");
+  }
+  if (page.has_alpha) volume.add_note("Left out: the channel alpha, which is constant.");
 }
 
-/// Returns the selected sample of a page. Three equal colours are one, see TiffStack.
-int chosen_sample(const Page& page, std::int64_t channel, const VolumeChoice& choice) {
-  if (page.samples == 1) return 0;
-  return page.shows_colours && !choice.channel ? -1 : static_cast<int>(channel);
+/// Returns the channels in the voxels of a page. Three equal colours are one, and alpha is none.
+VolumeAxis channels_of(const Page& page) {
+  return {AxisKind::Channel, page.shows_colours || page.has_alpha ? 1 : page.samples};
 }
 
 /// Returns the channels in a file's dimensions or in its voxels; refuses a file with both.
-VolumeAxis channels_of(const TiffLayout& layout, bool is_grey, const std::string& path) {
-  VolumeAxis channels = {AxisKind::Channel, layout.samples};
-  if (is_grey) channels.count = 1;
+VolumeAxis channels_of(const TiffLayout& layout, const Page& page, const std::string& path) {
+  VolumeAxis channels = channels_of(page);
   for (const VolumeAxis& axis : layout.axes) {
     if (axis.kind != AxisKind::Channel || axis.count == 1) continue;
     if (channels.count > 1) {
@@ -543,11 +674,12 @@ VolumeAxis channels_of(const TiffLayout& layout, bool is_grey, const std::string
   return channels;
 }
 
-std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& page,
-                                             const VolumeChoice& choice) {
+std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const PageList& list,
+                                             const Page& page, const VolumeChoice& choice) {
   const std::string& path = file.path();
-  TiffLayout layout =
-      tiff_layout(file.description(), file.pages(), {page.width, page.height, page.samples}, path);
+  const auto pages = static_cast<std::int64_t>(list.slices.size());
+  TiffLayout layout = tiff_layout(
+      list.text, pages, {page.width, page.height, page.samples, list.slices.back() + 1}, path);
   VolumeAxis frames = {AxisKind::Frame, 1};
   std::vector<std::int64_t> places;
   std::int64_t slices = 1;
@@ -562,7 +694,6 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
       frames.count = axis.count;
     }
   }
-  const std::int64_t pages = file.pages();
   if (slices == 1 && pages > 1 && !layout.writer.empty()) {
     refuse_volume(path, "has one slice: " + layout.writer + "'s text says that its " +
                             std::to_string(pages) +
@@ -570,8 +701,7 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
                             "the axes ZYX.");
   }
   // Each kind of dimension is selected once.
-  const std::int64_t channel =
-      chosen_place(channels_of(layout, page.shows_colours && !choice.channel, path), choice, path);
+  const std::int64_t channel = chosen_place(channels_of(layout, page, path), choice, path);
   const std::int64_t frame = chosen_place(frames, choice, path);
   for (const VolumeAxis& axis : layout.axes) {
     const bool has_more = axis.count > 1;
@@ -606,21 +736,24 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const Page& p
     data.picks = picks_of(axes, choice, path);
     volume = volume_of_files(geometry, type, data);
   } else {
-    const int sample = chosen_sample(page, channel, choice);
-    volume = std::make_unique<TiffStack>(geometry, page, sample, std::vector<std::string>{path},
-                                         slices_of(layout, places));
+    volume = std::make_unique<TiffStack>(geometry, page, channel, std::vector<std::string>{path},
+                                         slices_of(layout, list.slices, places));
   }
   volume->set_offset(layout.offset);
-  add_notes(layout, choice, *volume);
+  add_notes(layout, list, page, choice, *volume);
   return volume;
 }
 
 std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, const TiffFile& first,
-                                                  const Page& page, const VolumeChoice& choice) {
+                                                  const PageList& list, const Page& page,
+                                                  const VolumeChoice& choice) {
   std::vector<SlicePage> pages;
+  PageList all;
   for (std::size_t k = 0; k < slices.paths.size(); ++k) {
     const TiffFile file(slices.paths[k]);
-    const std::int64_t count = file.pages();
+    const PageList of_slice = list_pages(file);
+    const std::size_t count = of_slice.slices.size();
+    all.left_out += of_slice.left_out;
     if (count > 1) {
       refuse_volume(slices.paths[k],
                     "has " + std::to_string(count) +
@@ -633,16 +766,14 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
                                          ", but the slices before it have " + page.text() +
                                          ". Save all slices alike.");
     }
-    pages.push_back({k, 0});
+    pages.push_back({k, of_slice.slices.front()});
   }
-  const bool is_grey = page.shows_colours && !choice.channel;
-  const std::int64_t channel =
-      chosen_place({AxisKind::Channel, is_grey ? 1 : page.samples}, choice, slices.folder);
+  const std::int64_t channel = chosen_place(channels_of(page), choice, slices.folder);
   chosen_place({AxisKind::Frame, 1}, choice, slices.folder);
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
                                  slices.folder);
-  TiffLayout layout = slice_layout(first.description());
+  TiffLayout layout = slice_layout(list.text);
   if (!layout.unit.empty() && layout.voxel_size.z() == 0.0) {
     const std::optional<Vector3> resolution = voxel_of_resolution(first);
     if (resolution) {
@@ -656,10 +787,10 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
     }
   }
   set_lattice_of_tiff(geometry, first, page, layout, choice);
-  std::unique_ptr<LabelVolume> volume = std::make_unique<TiffStack>(
-      geometry, page, chosen_sample(page, channel, choice), slices.paths, std::move(pages));
+  std::unique_ptr<LabelVolume> volume =
+      std::make_unique<TiffStack>(geometry, page, channel, slices.paths, std::move(pages));
   volume->set_offset(layout.offset);
-  add_notes(layout, choice, *volume);
+  add_notes(layout, all, page, choice, *volume);
   return volume;
 }
 
@@ -669,10 +800,13 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
                                               const VolumeChoice& choice) {
   refuse_array_choice(choice, slices.folder);
   const TiffFile first(slices.paths.front());
-  const Page page = page_of(first);
-  std::unique_ptr<LabelVolume> volume = slices.paths.size() == 1
-                                            ? volume_of_pages(first, page, choice)
-                                            : volume_of_page_files(slices, first, page, choice);
+  const PageList list = list_pages(first);
+  Page page = page_of(first);
+  page.shows_colours = page.shows_colours && !choice.channel;
+  page.has_alpha = page.has_alpha && !choice.channel;
+  std::unique_ptr<LabelVolume> volume =
+      slices.paths.size() == 1 ? volume_of_pages(first, list, page, choice)
+                               : volume_of_page_files(slices, first, list, page, choice);
   if (page.shows_0_as_white) {
     volume->add_note(
         "The TIFF shows 0 as white. Its numbers were used unchanged. This is correct if the space "
