@@ -336,6 +336,51 @@ TEST_F(TiffVolume, TakesImageJsSizesOfSlicesInAFolder) {
   expect_made("slices");
   write_slices("ImageJ=1.53t\n", 0);
   EXPECT_FALSE(geometry("slices").has_size);
+  // Another unit, shift or resolution of one slice.
+  write_slices("ImageJ=1.53t\nunit=mm\n", 0);
+  for (const char* other : {"unit=um\n", "unit=mm\nspacing=1.1\n", "unit=mm\n"}) {
+    slice.text = std::string("ImageJ=1.53t\n") + other;
+    if (std::string(other) == "unit=mm\n") slice.resolution = 30.0;
+    write_tiff(path("slices/s1.tif"), slice, {page(1)});
+    EXPECT_FALSE(geometry("slices").has_size) << other;
+    EXPECT_NE(notes("slices")[0].find("s1.tif\" says another size of voxels"), std::string::npos);
+  }
+  slice.text = "ImageJ=1.53t\nunit=mm\ncf=0\nc0=-32768\nc1=1\n";
+  write_tiff(path("slices/s2.tif"), slice, {page(2)});
+  expect_refused("slices", {"s2.tif", "another calibration"});
+}
+
+TEST_F(TiffVolume, TakesOmesSizesAndOrderOfSlicesInAFolder) {
+  fs::create_directory(folder_ / "slices");
+  const auto write_slices = [&](const std::array<int, 3>& places, const std::string& last_z,
+                                const std::string& last_where = "") {
+    for (int z = 0; z < 3; ++z) {
+      TiffPages slice = as();
+      slice.text =
+          "<?xml version=\"1.0\"?><OME><Image><Pixels DimensionOrder=\"XYZCT\" SizeC=\"1\" "
+          "PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.25\" PhysicalSizeZ=\"" +
+          (z == 2 ? last_z : "2") + "\" PhysicalSizeXUnit=\"mm\" PhysicalSizeYUnit=\"mm\" " +
+          "PhysicalSizeZUnit=\"mm\" SizeZ=\"3\">";
+      for (std::size_t k = 0; k < 3; ++k) {
+        slice.text += "<TiffData FirstZ=\"" + std::to_string(places[k]) + "\" " +
+                      (k == 2 ? last_where : "") + "><UUID FileName=\"s" + std::to_string(k) +
+                      ".ome.tif\">urn</UUID></TiffData>";
+      }
+      slice.text += "</Pixels></Image></OME>";
+      write_tiff(path("slices/s" + std::to_string(z) + ".ome.tif"), slice, {page(z)});
+    }
+  };
+  write_slices({0, 1, 2}, "2");
+  expect_made("slices");
+  EXPECT_EQ(geometry("slices").unit, "mm");
+  EXPECT_LT((geometry("slices").point({1, 1, 1}) - Vector3(0.5, 0.25, 2.0)).norm(), 1e-7);
+  EXPECT_TRUE(notes("slices").empty());
+  write_slices({0, 1, 2}, "1");
+  EXPECT_FALSE(geometry("slices").has_size);
+  write_slices({0, 2, 1}, "2");
+  expect_refused("slices", {"s2.ome.tif", "is the slice 2 by OME's text", "Rename the files"});
+  write_slices({0, 1, 1}, "2", "FirstC=\"1\"");
+  expect_refused("slices", {"s2.ome.tif", "of another channel"});
 }
 
 TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
@@ -465,6 +510,22 @@ TEST_F(TiffVolume, RefusesOmesTextThatFitsNoPages) {
   EXPECT_EQ(geometry("a.tif").unit, "um");
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(2, 3, 2)).norm(), 1e-12);
   EXPECT_NE(notes("a.tif").at(0).find("PhysicalSizeZ"), std::string::npos);
+}
+
+TEST_F(TiffVolume, ReadsTheOnlyVolumeOfOmesImages) {
+  TiffPages stack = as();
+  const auto text = [](const std::string& slices) {
+    return "<OME><Image Name=\"label\"><Pixels SizeZ=\"1\"><TiffData IFD=\"0\"/></Pixels></Image>"
+           "<Image Name=\"sand\"><Pixels SizeZ=\"3\"><TiffData IFD=\"1\" "
+           "PlaneCount=\"3\"/></Pixels></Image><Image Name=\"macro\"><Pixels SizeZ=\"" +
+           slices + "\"><TiffData IFD=\"4\"/></Pixels></Image></OME>";
+  };
+  stack.text = text("1");
+  expect_made_of(stack, {page(2), page(0), page(1), page(2), page(1)});
+  EXPECT_NE(notes("a.tif")[0].find("Left out: the images of one slice"), std::string::npos);
+  stack.text = text("2");
+  expect_refused_of(stack, pages(),
+                    {"3 images", "\"sand\" of 3 slices", "\"macro\" of 2 slices", "series=0"});
 }
 
 TEST_F(TiffVolume, ReadsTheShapeThatTifffileWrites) {

@@ -25,6 +25,13 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* blanks = " \t\r\n\xef\xbb\xbf";
+
+bool is_ome(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first != std::string::npos && text[first] == '<' && text.find("<OME") != std::string::npos;
+}
+
 std::int64_t product_of(const std::vector<VolumeAxis>& axes) {
   std::int64_t product = 1;
   for (const VolumeAxis& axis : axes) product *= axis.count;
@@ -129,22 +136,6 @@ TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
   }
   return layout;
 }
-
-}  // namespace
-
-TiffLayout slice_layout(const std::string& description) {
-  TiffLayout layout;
-  if (description.rfind("ImageJ=", 0) != 0) return layout;
-  const ImageJText text(description);
-  read_calibration(text, layout);
-  read_unit(text, layout);
-  const std::optional<double> spacing = number_in(text.value("spacing"));
-  if (spacing) layout.voxel_size = Vector3::Constant(std::abs(*spacing));
-  if (spacing || !layout.unit.empty()) layout.writer = "ImageJ";
-  return layout;
-}
-
-namespace {
 
 /// Returns how many of the last dimensions belong to a page, its rows and columns, with its samples
 /// beside them or before them, or behind dimensions of one; 0 if none fit.
@@ -278,15 +269,21 @@ namespace {
 
 using Attributes = std::map<std::string, std::string>;
 
-/// Description of the pages in the XML.
-struct OmeText {
-  int images = 0;
-  Attributes pixels;  ///< of the first image
+/// An image of the XML.
+struct OmeImage {
+  std::string name;
+  Attributes pixels;
   struct Planes {
     Attributes where;  ///< of TiffData
     std::string file;  ///< empty: this file
   };
   std::vector<Planes> planes;
+};
+
+struct OmeText {
+  XML_Parser parser = nullptr;
+  bool ends_at_pixels = false;  ///< only the first image's attributes are read
+  std::vector<OmeImage> images;
 };
 
 void begin_element(void* user, const char* qualified, const char** pairs) {
@@ -296,27 +293,41 @@ void begin_element(void* user, const char* qualified, const char** pairs) {
       full.substr(full.find(':') == std::string::npos ? 0 : full.find(':') + 1);
   Attributes attributes;
   for (; *pairs != nullptr; pairs += 2) attributes[pairs[0]] = pairs[1];
-  if (name == "Pixels" && ++text.images == 1) text.pixels = attributes;
-  if (text.images > 1) return;
-  if (name == "TiffData") text.planes.push_back({attributes, ""});
-  if (name == "UUID" && !text.planes.empty()) text.planes.back().file = attributes["FileName"];
+  if (name == "Image") text.images.push_back({attributes["Name"], {}, {}});
+  if (text.images.empty()) return;
+  if (name == "Pixels") {
+    if (!text.images.back().pixels.empty()) text.images.emplace_back();
+    text.images.back().pixels = attributes;
+    if (text.ends_at_pixels) XML_StopParser(text.parser, XML_FALSE);
+  }
+  OmeImage& image = text.images.back();
+  if (name == "TiffData") image.planes.push_back({attributes, ""});
+  if (name == "UUID" && !image.planes.empty()) image.planes.back().file = attributes["FileName"];
 }
 
-OmeText ome_text_of(const std::string& xml, const std::string& path) {
+std::vector<OmeImage> ome_images_of(const std::string& xml, bool ends_at_pixels,
+                                    const std::string& path) {
+  if (xml.size() > std::size_t{1} << 28) refuse_volume(path, "has a text of more than 256 MB.");
   OmeText text;
-  XML_Parser const parser = XML_ParserCreate(nullptr);
-  if (parser == nullptr) throw std::bad_alloc();
-  XML_SetUserData(parser, &text);
-  XML_SetElementHandler(parser, begin_element, nullptr);
-  const XML_Status status = XML_Parse(parser, xml.data(), static_cast<int>(xml.size()), 1);
-  const char* const said = XML_ErrorString(XML_GetErrorCode(parser));  // null: no error
-  XML_ParserFree(parser);
-  if (status != XML_STATUS_OK) {
+  text.ends_at_pixels = ends_at_pixels;
+  text.parser = XML_ParserCreate(nullptr);
+  if (text.parser == nullptr) throw std::bad_alloc();
+  XML_SetUserData(text.parser, &text);
+  XML_SetElementHandler(text.parser, begin_element, nullptr);
+  const XML_Status status = XML_Parse(text.parser, xml.data(), static_cast<int>(xml.size()), 1);
+  const XML_Error code = XML_GetErrorCode(text.parser);
+  const char* const said = XML_ErrorString(code);  // null: no error
+  XML_ParserFree(text.parser);
+  if (status != XML_STATUS_OK && code != XML_ERROR_ABORTED) {
     refuse_volume(path, "has damaged OME XML (" + std::string(said == nullptr ? "" : said) +
                             "). Export it again.");
   }
-  if (text.images == 0) refuse_volume(path, "has OME XML without Pixels. Export it again.");
-  return text;
+  std::vector<OmeImage>& images = text.images;
+  images.erase(std::remove_if(images.begin(), images.end(),
+                              [](const OmeImage& image) { return image.pixels.empty(); }),
+               images.end());
+  if (images.empty()) refuse_volume(path, "has OME XML without Pixels. Export it again.");
+  return images;
 }
 
 /// Returns a whole number of an attribute, at least `least`.
@@ -373,7 +384,7 @@ void read_voxel_size(const Attributes& pixels, const std::string& path, TiffLayo
 }
 
 /// Computes the page of each plane, in the order of `layout.axes`.
-void read_pages(const OmeText& text, std::int64_t pages, std::int64_t in_file,
+void read_pages(const OmeImage& image, std::int64_t pages, std::int64_t in_file,
                 const std::string& path, TiffLayout& layout) {
   std::int64_t planes = 1;
   for (const VolumeAxis& axis : layout.axes) {
@@ -382,7 +393,7 @@ void read_pages(const OmeText& text, std::int64_t pages, std::int64_t in_file,
     if (planes > most) refuse_volume(path, "gives more planes than a file can have.");
   }
   // Without TiffData, the planes are in the order of the file.
-  if (text.planes.empty()) {
+  if (image.planes.empty()) {
     if (planes != pages) {
       refuse_volume(path, "has " + std::to_string(pages) + " pages, but OME's text has " +
                               std::to_string(planes) + " planes. Export it again.");
@@ -390,9 +401,9 @@ void read_pages(const OmeText& text, std::int64_t pages, std::int64_t in_file,
     return;
   }
   layout.pages.assign(static_cast<std::size_t>(planes), -1);
-  for (const OmeText::Planes& part : text.planes) {
+  for (const OmeImage::Planes& part : image.planes) {
     // A file may be renamed, but all its planes must be in one file.
-    const std::string& other = text.planes.front().file;
+    const std::string& other = image.planes.front().file;
     if (part.file != other) {
       refuse_volume(path, "is one of several files: OME's text names " + in_quotes(other) +
                               " and " + in_quotes(part.file) + ". Save the volume in one file.");
@@ -424,20 +435,43 @@ void read_pages(const OmeText& text, std::int64_t pages, std::int64_t in_file,
   }
 }
 
+/// Returns the only image with more than one slice, and notes how many others there are. Throws
+/// Error(InputOutput), naming them, if several have, or none.
+OmeImage image_of_slices(const std::string& xml, const std::string& path, TiffLayout& layout) {
+  const std::vector<OmeImage> images = ome_images_of(xml, false, path);
+  std::string names;
+  const OmeImage* found = nullptr;
+  int volumes = 0;
+  for (const OmeImage& image : images) {
+    const std::int64_t slices = count_of(image.pixels, "SizeZ", 1, 1, path);
+    names += (names.empty() ? "" : ", ") + in_quotes(image.name) + " of " + std::to_string(slices) +
+             (slices == 1 ? " slice" : " slices");
+    if (slices == 1 && images.size() > 1) continue;
+    ++volumes;
+    found = &image;
+  }
+  if (volumes != 1) {
+    refuse_volume(path,
+                  "holds " + std::to_string(images.size()) + " images by OME's text: " + names +
+                      ". Save only the image of the labels, in Python by import "
+                      "tifffile; tifffile.imwrite(\"one.tif\", tifffile.imread(" +
+                      in_quotes(std::filesystem::path(path).filename().string()) + ", series=0))");
+  }
+  if (images.size() > 1) {
+    layout.more_notes.push_back("Left out: the images of one slice. OME's text has " + names + ".");
+  }
+  return *found;
+}
+
 TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffPageShape& page,
                          const std::string& path) {
   const std::int64_t samples = page.samples;
-  if (xml.size() > std::size_t{1} << 28) refuse_volume(path, "has a text of more than 256 MB.");
-  const OmeText text = ome_text_of(xml, path);
-  if (text.images > 1) {
-    refuse_volume(path, "holds " + std::to_string(text.images) +
-                            " images by OME's text. Save only the image of the labels.");
-  }
   TiffLayout layout;
+  const OmeImage image = image_of_slices(xml, path, layout);
   layout.writer = "OME";
   layout.samples = samples;
-  const auto found = text.pixels.find("DimensionOrder");
-  const std::string order = found == text.pixels.end() ? "XYZCT" : found->second;
+  const auto found = image.pixels.find("DimensionOrder");
+  const std::string order = found == image.pixels.end() ? "XYZCT" : found->second;
   std::string letters = order;
   std::sort(letters.begin(), letters.end());
   if (letters != "CTXYZ" || order.rfind("XY", 0) != 0) {
@@ -447,9 +481,9 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffP
   for (const char letter : order.substr(2)) {
     const std::string key = std::string("Size") + letter;
     if (letter == 'Z') {
-      layout.axes.push_back({AxisKind::Space, count_of(text.pixels, key, 1, 1, path)});
+      layout.axes.push_back({AxisKind::Space, count_of(image.pixels, key, 1, 1, path)});
     } else if (letter == 'C') {
-      const std::int64_t channels = count_of(text.pixels, key, 1, 1, path);
+      const std::int64_t channels = count_of(image.pixels, key, 1, 1, path);
       if (channels % samples != 0) {
         refuse_volume(path, "has " + std::to_string(samples) + " numbers per voxel, but " +
                                 std::to_string(channels) +
@@ -458,39 +492,95 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffP
       }
       layout.axes.push_back({AxisKind::Channel, channels / samples});
     } else {
-      layout.axes.push_back({AxisKind::Frame, count_of(text.pixels, key, 1, 1, path)});
+      layout.axes.push_back({AxisKind::Frame, count_of(image.pixels, key, 1, 1, path)});
     }
   }
-  read_pages(text, pages, page.in_file, path, layout);
-  read_voxel_size(text.pixels, path, layout);
+  read_pages(image, pages, page.in_file, path, layout);
+  read_voxel_size(image.pixels, path, layout);
+  return layout;
+}
+
+/// Reads the size of the voxels of a slice in a file of its own.
+TiffLayout slice_layout_of_ome(const std::string& xml, const std::string& path) {
+  TiffLayout layout;
+  layout.writer = "OME";
+  read_voxel_size(ome_images_of(xml, true, path).front().pixels, path, layout);
   return layout;
 }
 
 }  // namespace
 
+void check_ome_slices(const std::string& text, const std::vector<std::string>& paths) {
+  if (!is_ome(text)) return;
+  std::map<std::string, Attributes> places;
+  const std::vector<OmeImage> images = ome_images_of(text, false, paths.front());
+  for (const OmeImage::Planes& part : images.front().planes) {
+    if (!part.file.empty()) places[part.file] = part.where;
+  }
+  const auto where = [&](const std::string& path) {
+    return places.find(std::filesystem::path(path).filename().string());
+  };
+  std::int64_t last = -1;
+  for (const std::string& path : paths) {
+    if (where(path) == places.end()) return;  // renamed, or not of this set
+    const Attributes& here = where(path)->second;
+    const Attributes& first = where(paths.front())->second;
+    for (const char* key : {"FirstC", "FirstT"}) {
+      if (count_of(here, key, 0, 0, path) == count_of(first, key, 0, 0, path)) continue;
+      refuse_volume(path, std::string("is of another ") + (key[5] == 'C' ? "channel" : "time") +
+                              " than the slices before it, by OME's text. Move the files of one "
+                              "volume to a folder of their own.");
+    }
+    const std::int64_t slice = count_of(here, "FirstZ", 0, 0, path);
+    if (slice <= last) {
+      refuse_volume(path, "is the slice " + std::to_string(slice + 1) +
+                              " by OME's text, but follows the slice " + std::to_string(last + 1) +
+                              " by the numbers in the names. Rename the files.");
+    }
+    last = slice;
+  }
+}
+
 #else
 
 namespace {
 
-TiffLayout layout_of_ome(const std::string&, std::int64_t, const TiffPageShape&,
-                         const std::string& path) {
+TiffLayout slice_layout_of_ome(const std::string&, const std::string& path) {
   refuse_volume(path,
                 "has OME XML, but this program was built without Expat. Install "
                 "libexpat1-dev and build it again, or save the volume as .nrrd.");
 }
 
+TiffLayout layout_of_ome(const std::string& xml, std::int64_t, const TiffPageShape&,
+                         const std::string& path) {
+  return slice_layout_of_ome(xml, path);
+}
+
 }  // namespace
 
+void check_ome_slices(const std::string&, const std::vector<std::string>&) {}
+
 #endif
+
+TiffLayout slice_layout(const std::string& description, const std::string& path) {
+  if (is_ome(description)) return slice_layout_of_ome(description, path);
+  TiffLayout layout;
+  if (description.rfind("ImageJ=", 0) != 0) return layout;
+  const ImageJText text(description);
+  read_calibration(text, layout);
+  read_unit(text, layout);
+  const std::optional<double> spacing = number_in(text.value("spacing"));
+  if (spacing) layout.voxel_size = Vector3::Constant(std::abs(*spacing));
+  if (spacing || !layout.unit.empty()) layout.writer = "ImageJ";
+  return layout;
+}
 
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path) {
   const std::int64_t samples = page.samples;
   if (text.rfind("ImageJ=", 0) == 0) return layout_of_imagej(text, pages, samples, path);
-  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
-  if (first != std::string::npos && text[first] == '<' && text.find("<OME") != std::string::npos) {
-    return layout_of_ome(text, pages, page, path);
-  }
+  if (is_ome(text)) return layout_of_ome(text, pages, page, path);
+  const std::size_t first = text.find_first_not_of(blanks);
   if (first != std::string::npos && text[first] == '{') {
     const Json json = Json::parse(text, nullptr, false);
     if (json.is_object() && json.contains("shape") && json["shape"].is_array()) {

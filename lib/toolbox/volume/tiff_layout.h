@@ -23,6 +23,7 @@ struct TiffLayout {
   Vector3 voxel_size = Vector3::Zero();
   std::string unit;
   std::string other_unit;  ///< of one axis only; empty: none has another
+  std::string differing;   ///< name of a slice's file that says another size; empty: none does
   /// All voxels are one block after the only page.
   bool may_be_one_block = false;
   std::int64_t offset = 0;      ///< to be added to each number
@@ -39,9 +40,14 @@ struct TiffPageShape {
   std::int64_t in_file = 1;  ///< number of the last of them in the file, from 1
 };
 
-/// Reads what the text of one of many slices says of all: ImageJ's unit, distance of slices and
-/// calibration. Of another text nothing: the slice is no stack.
-TiffLayout slice_layout(const std::string& description);
+/// Reads what the text of one of many slices, the file `path`, says of all: OME's size of voxels, or
+/// ImageJ's unit, distance of slices and calibration. Of another text nothing: the slice is no
+/// stack. Throws as tiff_layout does.
+TiffLayout slice_layout(const std::string& description, const std::string& path);
+
+/// Throws Error(InputOutput), naming the file, if OME's text of the first of these slices places
+/// them in another order, or in several channels or frames.
+void check_ome_slices(const std::string& text, const std::vector<std::string>& paths);
 
 /// Reads the layout of a file `path` with `pages` pages of slices from its first page's text.
 /// Throws Error(InputOutput), naming the file, if the text contradicts the pages, or has unknown

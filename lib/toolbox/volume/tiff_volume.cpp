@@ -14,6 +14,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 
 #include "toolbox/volume/byte_order_check.h"
@@ -601,6 +602,11 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const P
   } else if (layout.writer != "OME") {
     size = Vector3::Zero();
   }
+  if (!layout.differing.empty()) {
+    size = Vector3::Zero();
+    layout.notes = {in_quotes(layout.differing) +
+                    " says another size of voxels than the slices before it. None was used."};
+  }
   geometry.has_size = size.minCoeff() > 0.0;
   if (!geometry.has_size) {
     size = Vector3::Ones();
@@ -744,11 +750,51 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const PageLis
   return volume;
 }
 
+/// Reads what the text of a slice, a file of its own, says of all.
+TiffLayout layout_of_slice(const TiffFile& file, const PageList& list) {
+  TiffLayout layout = slice_layout(list.text, file.path());
+  const std::optional<Vector3> resolution = voxel_of_resolution(file);
+  if (layout.writer != "ImageJ" || layout.voxel_size.z() > 0.0 || !resolution) return layout;
+  std::uint16_t unit = RESUNIT_INCH;
+  TIFFGetFieldDefaulted(file.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
+  layout.voxel_size.z() = resolution->x() / (unit == RESUNIT_INCH ? 2.54 : 1.0);
+  layout.notes.push_back(
+      "ImageJ noted no distance of slices: along z as along x. Give another by " +
+      mention("voxel-size", "X,Y,Z") + ".");
+  return layout;
+}
+
+/// Keeps the size of the first slices' voxels if this slice, the file `path`, says the same.
+/// Otherwise no size is known. Refuses another shift of the numbers.
+void take_size_of_slice(const TiffLayout& slice, const std::optional<Vector3>& first_resolution,
+                        const std::optional<Vector3>& resolution, const std::string& path,
+                        TiffLayout& layout) {
+  if (slice.offset != layout.offset) {
+    refuse_volume(path,
+                  "has another calibration of its numbers than the slices before it. Save "
+                  "all slices alike.");
+  }
+  if (!layout.differing.empty()) return;
+  const auto differ = [](const Vector3& a, const Vector3& b) {
+    return (a - b).cwiseAbs().maxCoeff() > 1e-4 * b.cwiseAbs().maxCoeff();
+  };
+  const Vector3 none = Vector3::Zero();
+  if (slice.writer == layout.writer && slice.unit == layout.unit &&
+      !differ(slice.voxel_size, layout.voxel_size) &&
+      !differ(resolution.value_or(none), first_resolution.value_or(none))) {
+    return;
+  }
+  layout.differing = std::filesystem::path(path).filename().string();
+}
+
 std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, const TiffFile& first,
                                                   const PageList& list, const Page& page,
                                                   const VolumeChoice& choice) {
   std::vector<SlicePage> pages;
   PageList all;
+  TiffLayout layout = layout_of_slice(first, list);
+  const std::optional<Vector3> resolution = voxel_of_resolution(first);
+  check_ome_slices(list.text, slices.paths);
   for (std::size_t k = 0; k < slices.paths.size(); ++k) {
     const TiffFile file(slices.paths[k]);
     const PageList of_slice = list_pages(file);
@@ -766,6 +812,8 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
                                          ", but the slices before it have " + page.text() +
                                          ". Save all slices alike.");
     }
+    take_size_of_slice(layout_of_slice(file, of_slice), resolution, voxel_of_resolution(file),
+                       file.path(), layout);
     pages.push_back({k, of_slice.slices.front()});
   }
   const std::int64_t channel = chosen_place(channels_of(page), choice, slices.folder);
@@ -773,19 +821,6 @@ std::unique_ptr<LabelVolume> volume_of_page_files(const SliceFiles& slices, cons
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, static_cast<std::int64_t>(pages.size())},
                                  slices.folder);
-  TiffLayout layout = slice_layout(list.text);
-  if (!layout.unit.empty() && layout.voxel_size.z() == 0.0) {
-    const std::optional<Vector3> resolution = voxel_of_resolution(first);
-    if (resolution) {
-      std::uint16_t unit = RESUNIT_INCH;
-      TIFFGetFieldDefaulted(first.get(), TIFFTAG_RESOLUTIONUNIT, &unit);
-      layout.voxel_size.z() = resolution->x() / (unit == RESUNIT_INCH ? 2.54 : 1.0);
-      layout.notes.push_back(
-          "ImageJ noted no distance of slices: along z as along x. Give another "
-          "by " +
-          mention("voxel-size", "X,Y,Z") + ".");
-    }
-  }
   set_lattice_of_tiff(geometry, first, page, layout, choice);
   std::unique_ptr<LabelVolume> volume =
       std::make_unique<TiffStack>(geometry, page, channel, slices.paths, std::move(pages));
