@@ -546,19 +546,42 @@ class Hdf5Volumes : public ArrayVolumes {
     H5Fclose(file);
   }
 
-  void add_text(const std::string& name, const char* key, const std::string& text) const {
+  /// Adds texts as an attribute of a data set or a group, which is made.
+  void add_texts(const std::string& name, const char* key,
+                 const std::vector<std::string>& texts) const {
     const hid_t file = H5Fopen(path("a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-    const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    if (H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) {
+      H5Gclose(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    }
+    const hid_t object = H5Oopen(file, name.c_str(), H5P_DEFAULT);
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, H5T_VARIABLE);
-    const hid_t space = H5Screate(H5S_SCALAR);
-    const hid_t id = H5Acreate2(set, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const char* const value = text.c_str();
-    H5Awrite(id, type, &value);
+    const hsize_t count = texts.size();
+    const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr);
+    const hid_t id = H5Acreate2(object, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    std::vector<const char*> values;
+    for (const std::string& text : texts) values.push_back(text.c_str());
+    H5Awrite(id, type, values.data());
     H5Aclose(id);
     H5Sclose(space);
     H5Tclose(type);
-    H5Dclose(set);
+    H5Oclose(object);
+    H5Fclose(file);
+  }
+  void add_text(const std::string& name, const char* key, const std::string& text) const {
+    add_texts(name, key, {text});
+  }
+  /// Adds a text letter by letter, as Imaris does.
+  void add_letters(const std::string& name, const char* key, const std::string& text) const {
+    const hid_t file = H5Fopen(path("a.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const hid_t object = H5Oopen(file, name.c_str(), H5P_DEFAULT);
+    const hsize_t count = text.size();
+    const hid_t space = H5Screate_simple(1, &count, nullptr);
+    const hid_t id = H5Acreate2(object, key, H5T_C_S1, space, H5P_DEFAULT, H5P_DEFAULT);
+    H5Awrite(id, H5T_C_S1, text.data());
+    H5Aclose(id);
+    H5Sclose(space);
+    H5Oclose(object);
     H5Fclose(file);
   }
 };
@@ -650,6 +673,109 @@ TEST_F(Hdf5Volumes, OfIlastikAreReadByTheirAxistags) {
   add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3}, bytes);
   add_text("exported_data", "axistags", R"({"axes":[)" + key("z") + "," + key("y") + "]}");
   expect_refused("a.h5", {"axistags of 2 axes", "3 dimensions"});
+}
+
+TEST_F(Hdf5Volumes, OfIlastikHaveTheResolutionOfTheirAxistags) {
+  const auto write_tags = [&](const std::array<const char*, 3>& lengths,
+                              const std::array<const char*, 3>& units) {
+    std::filesystem::remove(path("a.h5"));
+    add("exported_data", H5T_NATIVE_UINT16, {7, 5, 3}, bytes_by_x());
+    std::string text;
+    for (std::size_t k = 0; k < 3; ++k) {
+      text += std::string(k == 0 ? "" : ",") + R"({"key":")" + "xyz"[k] + R"(","resolution":)" +
+              lengths[k] + R"(,"unit":")" + units[k] + "\"}";
+    }
+    add_text("exported_data", "axistags", R"({"axes":[)" + text + "]}");
+  };
+  write_tags({"0.5", "0.25", "2000"}, {"um", "\u00b5m", "nm"});
+  expect_placed("a.h5", Vector3(0.5, 0.25, 2.0));
+  EXPECT_EQ(geometry("a.h5").unit, "um");
+  EXPECT_EQ(geometry("a.h5").size_source, "ilastik's axistags");
+  write_tags({"0.5", "0.25", "2"}, {"", "", ""});
+  expect_placed("a.h5", Vector3(0.5, 0.25, 2.0));
+  EXPECT_EQ(geometry("a.h5").unit, "");
+  for (const auto& [length, unit] : std::vector<std::pair<const char*, const char*>>{
+           {"0", "um"}, {"1", ""}, {"-1", "um"}, {"1", "bogus"}}) {
+    write_tags({"1", "1", length}, {unit, unit, unit[0] == 'b' ? "um" : unit});
+    EXPECT_FALSE(geometry("a.h5").has_size) << length << unit;
+    expect_placed("a.h5", Vector3(1, 1, 1));
+  }
+}
+
+TEST_F(Hdf5Volumes, OfNexusHaveTheStepsOfTheirAxes) {
+  const auto write_axes = [&](double uneven, bool is_old) {
+    std::filesystem::remove(path("a.h5"));
+    add("entry/voxels", H5T_NATIVE_UINT16, {7, 5, 3}, bytes_by_x());
+    add_text("entry", "NX_class", "NXdata");
+    if (is_old) {
+      add_text("entry/voxels", "axes", "x:y:z");
+    } else {
+      add_texts("entry", "axes", {"x", "y", "z"});
+    }
+    // Centres along x and y, edges along z.
+    const std::array<std::size_t, 3> counts = {7, 5, 4};
+    const std::array<double, 3> steps = {0.5, 0.25, 2.0};
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<double> places;
+      for (std::size_t i = 0; i < counts[k]; ++i) {
+        places.push_back(3.0 + steps[k] * static_cast<double>(i));
+      }
+      places[2] += uneven;
+      const std::string name = std::string("entry/") + "xyz"[k];
+      add(name, H5T_NATIVE_DOUBLE, {counts[k]},
+          std::string(reinterpret_cast<const char*>(places.data()), 8 * counts[k]));
+      add_text(name, "units", "mm");
+    }
+    std::filesystem::rename(path("a.h5"), path("a.nxs"));
+  };
+  for (const bool is_old : {false, true}) {
+    write_axes(0.0, is_old);
+    expect_placed("a.nxs", Vector3(0.5, 0.25, 2.0));
+    EXPECT_EQ(geometry("a.nxs").unit, "mm");
+    EXPECT_EQ(geometry("a.nxs").size_source, "NeXus' axes");
+  }
+  write_axes(0.1, false);
+  EXPECT_FALSE(geometry("a.nxs").has_size);
+  expect_placed("a.nxs", Vector3(1, 1, 1));
+}
+
+TEST_F(Hdf5Volumes, OfImarisAreCutToTheirImage) {
+  // Stored in blocks that exceed the image of 7 x 5 x 3 voxels, with a smaller level.
+  for (int c = 0; c < 2; ++c) {
+    std::string bytes(4 * 8 * 8 * 2, '\x63');
+    const std::string rows = made_.bytes<std::uint16_t>();
+    for (std::size_t z = 0; z < 3; ++z) {
+      for (std::size_t y = 0; y < 5; ++y) {
+        bytes.replace((z * 8 + y) * 16, 14, rows.substr((z * 5 + y) * 14, 14));
+      }
+    }
+    if (c == 0) bytes.assign(bytes.size(), '\1');
+    for (const char* level : {"0", "1"}) {
+      const std::string group = std::string("DataSet/ResolutionLevel ") + level +
+                                "/TimePoint 0/Channel " + std::to_string(c);
+      add(group + "/Data", H5T_NATIVE_UINT16, {4, 8, 8}, bytes, 4);
+      add_letters(group, "ImageSizeX", "7");
+      add_letters(group, "ImageSizeY", "5");
+      add_letters(group, "ImageSizeZ", "3");
+    }
+  }
+  add_text("DataSetInfo", "Y", "5");
+  add_text("DataSetInfo/Image", "Y", "5");
+  add_letters("DataSetInfo/Image", "Unit", "um");
+  const std::array<std::array<const char*, 2>, 3> ends = {
+      {{"10.000", "13.500"}, {"20", "21.25"}, {"-5", "1"}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    add_letters("DataSetInfo/Image", ("ExtMin" + std::to_string(k)).c_str(), ends[k][0]);
+    add_letters("DataSetInfo/Image", ("ExtMax" + std::to_string(k)).c_str(), ends[k][1]);
+  }
+  std::filesystem::rename(path("a.h5"), path("a.ims"));
+  expect_refused("a.ims", {"2 channels", "--select channel=1 to channel=2"});
+  expect_made("a.ims", channel(2));
+  expect_made("a.ims", array("DataSet/ResolutionLevel 0/TimePoint 0/Channel 1/Data"));
+  const VolumeGeometry read = geometry("a.ims", channel(2));
+  EXPECT_EQ(read.unit, "um");
+  EXPECT_LT((read.point({0, 0, 0}) - Vector3(10, 20, -5)).norm(), 1e-12);
+  EXPECT_LT((read.point({7, 5, 3}) - Vector3(13.5, 21.25, 1)).norm(), 1e-12);
 }
 
 TEST_F(Hdf5Volumes, HaveTheOrderOfTheirDimensionLabels) {

@@ -11,11 +11,14 @@
 #include <hdf5.h>
 
 #include <boost/endian/conversion.hpp>
+#include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 #endif
 
@@ -126,47 +129,58 @@ void refuse_foreign_voxels(hid_t data_set, const std::string& name, const std::s
                     in_quotes(name) + "][()]'");
 }
 
-/// Returns the text of an attribute; empty without one.
-std::string text_of(hid_t object, const char* name) {
-  if (H5Aexists(object, name) <= 0) return "";
+/// Returns the texts of an attribute; none without one.
+std::vector<std::string> texts_of(hid_t object, const char* name) {
+  if (H5Aexists(object, name) <= 0) return {};
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute), H5Tclose);
   const Handle space(H5Aget_space(attribute), H5Sclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return "";
+  const hssize_t said = H5Sget_simple_extent_npoints(space);
   constexpr std::size_t longest = 1 << 16;
-  if (H5Tis_variable_str(type) > 0) {
-    char* text = nullptr;
-    const Handle memory(H5Tcopy(type), H5Tclose);
-    if (H5Aread(attribute, memory, &text) < 0 || text == nullptr) return "";
-    const std::string result(text);
-    H5free_memory(text);
-    return result;
-  }
   const std::size_t size = H5Tget_size(type);
-  if (size > longest) return "";
-  std::string text(size, '\0');
-  if (H5Aread(attribute, type, text.data()) < 0) return "";
-  return text.substr(0, text.find('\0'));
+  const auto count = static_cast<std::size_t>(std::max<hssize_t>(said, 0));
+  if (H5Tget_class(type) != H5T_STRING || size == 0 || count > longest / size) return {};
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(type) > 0) {
+    std::vector<char*> read(count, nullptr);
+    const Handle memory(H5Tcopy(type), H5Tclose);
+    if (H5Aread(attribute, memory, read.data()) < 0) return {};
+    for (char* const text : read) {
+      texts.emplace_back(text == nullptr ? "" : text);
+      if (text != nullptr) H5free_memory(text);
+    }
+    return texts;
+  }
+  std::string all(count * size, '\0');
+  if (H5Aread(attribute, type, all.data()) < 0) return {};
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string text = all.substr(k * size, size);
+    texts.emplace_back(trimmed(text.substr(0, text.find('\0'))));
+  }
+  return texts;
 }
 
-/// Returns the roles of dimensions by ilastik's axistags; empty without them or for unknown ones.
-std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions,
-                                   const std::string& path) {
-  const Json json = Json::parse(text_of(data_set, "axistags"), nullptr, false);
-  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return {};
-  if (json["axes"].size() != dimensions) {
-    refuse_volume(path, "has axistags of " + std::to_string(json["axes"].size()) +
-                            " axes on a data set of " + std::to_string(dimensions) +
-                            " dimensions. Correct the attribute \"axistags\", or remove it.");
+/// Returns the text of an attribute, also of one that is stored letter by letter; empty without
+/// one.
+std::string text_of(hid_t object, const char* name) {
+  std::string joined;
+  const std::vector<std::string> texts = texts_of(object, name);
+  for (const std::string& text : texts) {
+    if (text.size() > 1 && texts.size() > 1) return "";
+    joined += text;
   }
+  return joined;
+}
+
+/// Returns the roles of dimensions by their names; empty if one is unknown.
+std::vector<int> roles_of(const std::vector<std::string>& names) {
   std::vector<int> roles;
-  for (const Json& axis : json["axes"]) {
-    const std::string key =
-        axis.is_object() && axis.contains("key") && axis["key"].is_string() ? axis["key"] : "";
-    if (key == "x" || key == "y" || key == "z") {
-      roles.push_back(key.front() - 'x');
-    } else if (key == "c" || key == "t") {
-      roles.push_back(key == "c" ? -2 : -1);
+  for (const std::string& name : names) {
+    const std::string text = lower_case(name);
+    if (text == "x" || text == "y" || text == "z") {
+      roles.push_back(text.front() - 'x');
+    } else if (text == "c" || text == "t") {
+      roles.push_back(text == "c" ? -2 : -1);
     } else {
       return {};
     }
@@ -174,30 +188,58 @@ std::vector<int> roles_of_axistags(hid_t data_set, std::size_t dimensions,
   return roles;
 }
 
-/// Returns the roles of dimensions by the labels of HDF5's dimension scales; empty without them or
-/// for unknown ones.
-std::vector<int> roles_of_labels(hid_t data_set, std::size_t dimensions) {
-  constexpr const char* name = "DIMENSION_LABELS";
-  if (H5Aexists(data_set, name) <= 0) return {};
-  const Handle attribute(H5Aopen(data_set, name, H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute), H5Tclose);
-  const Handle space(H5Aget_space(attribute), H5Sclose);
-  if (H5Tis_variable_str(type) <= 0 ||
-      H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(dimensions)) {
-    return {};
+/// A length of voxels in a file's unit.
+struct UnitLength {
+  double length = 0.0;  ///< not above 0: unknown
+  std::string unit;     ///< as unit_of gives it; empty: unknown
+};
+
+/// Sets the size of the voxels, of which the dimensions `roles` have these lengths. It stays
+/// unknown where a length or the ratio of units is, or all lengths are 1 without a unit.
+void take_lengths(const std::vector<int>& roles, const std::vector<UnitLength>& lengths,
+                  const char* source, ArrayShape& shape) {
+  Vector3 size = Vector3::Zero();
+  std::string unit;
+  for (std::size_t k = 0; k < roles.size(); ++k) {
+    if (roles[k] < 0) continue;
+    const double from = nanometres(lengths[k].unit);
+    const bool is_first = size.isZero(0.0);
+    if (is_first) unit = lengths[k].unit;
+    const double to = nanometres(unit);
+    if (lengths[k].unit != unit && from * to == 0.0) return;
+    size[roles[k]] = lengths[k].length * (lengths[k].unit == unit ? 1.0 : from / to);
+    if (!(size[roles[k]] > 0.0)) return;
   }
-  std::vector<char*> labels(dimensions, nullptr);
-  const Handle memory(H5Tcopy(type), H5Tclose);
-  if (H5Aread(attribute, memory, labels.data()) < 0) return {};
-  std::vector<int> roles;
-  for (char* const label : labels) {
-    const std::string text = label == nullptr ? "" : lower_case(label);
-    if (text == "x" || text == "y" || text == "z") roles.push_back(text.front() - 'x');
-    if (text == "c" || text == "t") roles.push_back(text == "c" ? -2 : -1);
-    if (label != nullptr) H5free_memory(label);
+  if (!(size.minCoeff() > 0.0) || (unit.empty() && size == Vector3::Ones())) return;
+  shape.voxel_size = size;
+  shape.unit = unit;
+  shape.size_source = source;
+}
+
+/// Reads the roles of dimensions from ilastik's axistags, and the size of the voxels that its later
+/// versions write there. Nothing without them or for unknown axes.
+void read_axistags(hid_t data_set, const std::string& path, ArrayShape& shape) {
+  const Json json = Json::parse(text_of(data_set, "axistags"), nullptr, false);
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return;
+  if (json["axes"].size() != shape.counts.size()) {
+    refuse_volume(path, "has axistags of " + std::to_string(json["axes"].size()) +
+                            " axes on a data set of " + std::to_string(shape.counts.size()) +
+                            " dimensions. Correct the attribute \"axistags\", or remove it.");
   }
-  if (roles.size() < dimensions) roles.clear();
-  return roles;
+  std::vector<std::string> names;
+  std::vector<UnitLength> lengths;
+  for (const Json& axis : json["axes"]) {
+    const auto text = [&](const char* key) {
+      const bool is_there = axis.is_object() && axis.contains(key) && axis[key].is_string();
+      return is_there ? axis[key].get<std::string>() : std::string();
+    };
+    names.push_back(text("key"));
+    const bool has_length =
+        axis.is_object() && axis.contains("resolution") && axis["resolution"].is_number();
+    lengths.push_back({has_length ? axis["resolution"].get<double>() : 0.0, unit_of(text("unit"))});
+  }
+  shape.roles = roles_of(names);
+  take_lengths(shape.roles, lengths, "ilastik's axistags", shape);
 }
 
 /// Returns the three numbers of an attribute; nothing without them.
@@ -257,6 +299,93 @@ void read_dream3d(hid_t file, const std::string& name, const std::string& path, 
   }
 }
 
+/// Returns the step of the evenly spaced positions along an axis of `count` voxels, by NeXus'
+/// rules: a data set of their centres or edges, with its unit as an attribute.
+UnitLength step_of_axis(hid_t group, const std::string& name, std::int64_t count) {
+  const Handle axis(H5Lexists(group, name.c_str(), H5P_DEFAULT) > 0
+                        ? H5Dopen2(group, name.c_str(), H5P_DEFAULT)
+                        : H5I_INVALID_HID,
+                    H5Dclose);
+  if (!axis.is_there() || !type_of(axis) || has_foreign_voxels(axis)) return {};
+  const std::vector<hsize_t> counts = counts_of(axis);
+  const auto wanted = static_cast<hsize_t>(count);
+  if (counts.size() != 1 || wanted < 2 || (counts[0] != wanted && counts[0] != wanted + 1)) {
+    return {};
+  }
+  std::vector<double> places(counts[0]);
+  if (H5Dread(axis, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, places.data()) < 0) return {};
+  const std::string said = text_of(axis, "units");
+  if (!unit_of(said).empty() && !is_known_unit(said)) return {};
+  const double step = (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    constexpr double even = 0.01;
+    if (!(std::abs(places[k] - places[k - 1] - step) <= even * step)) return {};
+  }
+  return {step, unit_of(said)};
+}
+
+/// Reads the names of the dimensions and their positions from the group NXdata of NeXus that has
+/// the data set. https://manual.nexusformat.org/classes/base_classes/NXdata.html
+void read_nexus(hid_t file, hid_t data_set, const std::string& name, ArrayShape& shape) {
+  const Handle group(H5Gopen2(file, (name.substr(0, name.rfind('/')) + "/").c_str(), H5P_DEFAULT),
+                     H5Gclose);
+  if (!group.is_there() || text_of(group, "NX_class") != "NXdata") return;
+  std::vector<std::string> axes = texts_of(group, "axes");
+  const std::string before_2014 = text_of(data_set, "axes");  // "z:y:x"
+  if (axes.empty() && !before_2014.empty()) {
+    std::istringstream parts(before_2014);
+    for (std::string one; std::getline(parts, one, ':');) axes.push_back(one);
+  }
+  if (axes.size() != shape.counts.size()) return;
+  if (shape.roles.empty()) shape.roles = roles_of(axes);
+  std::vector<int> roles = shape.roles;
+  if (roles.empty() && axes.size() == 3) roles = {2, 1, 0};
+  std::vector<UnitLength> lengths;
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    lengths.push_back(step_of_axis(group, axes[k], shape.counts[k]));
+  }
+  take_lengths(roles, lengths, "NeXus' axes", shape);
+}
+
+/// Returns the path of the chosen volume of an Imaris file, in full resolution; empty for other
+/// files.
+std::string imaris_volume(hid_t file, const VolumeChoice& choice, const std::string& path) {
+  const std::string level = "/DataSet/ResolutionLevel 0/TimePoint ";
+  const auto is_group = [&](const std::string& name) {
+    return Handle(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose).is_there();
+  };
+  VolumeAxis frames = {AxisKind::Frame, 0};
+  VolumeAxis channels = {AxisKind::Channel, 0};
+  while (is_group(level + std::to_string(frames.count))) ++frames.count;
+  while (is_group(level + "0/Channel " + std::to_string(channels.count))) ++channels.count;
+  if (frames.count == 0 || channels.count == 0) return "";
+  return level + std::to_string(chosen_place(frames, choice, path)) + "/Channel " +
+         std::to_string(chosen_place(channels, choice, path)) + "/Data";
+}
+
+/// Reads Imaris' counts of voxels, which the stored blocks exceed, and the extent of the image.
+void read_imaris(hid_t file, const std::string& name, ArrayShape& shape) {
+  const Handle image(H5Gopen2(file, "/DataSetInfo/Image", H5P_DEFAULT), H5Gclose);
+  const Handle channel(H5Gopen2(file, name.substr(0, name.rfind('/')).c_str(), H5P_DEFAULT),
+                       H5Gclose);
+  if (!image.is_there() || !channel.is_there() || shape.counts.size() != 3) return;
+  std::vector<UnitLength> lengths;
+  Vector3 corner = Vector3::Zero();
+  for (const std::size_t k : {2U, 1U, 0U}) {  // z, y, x
+    const std::string letter(1, "XYZ"[k]);
+    const auto said = whole_number_in(text_of(channel, ("ImageSize" + letter).c_str()));
+    std::int64_t& count = shape.counts[2 - k];
+    if (said && *said > 0 && *said < count) count = *said;
+    const auto least = number_in(text_of(image, ("ExtMin" + std::to_string(k)).c_str()));
+    const auto most = number_in(text_of(image, ("ExtMax" + std::to_string(k)).c_str()));
+    lengths.push_back({least && most ? (*most - *least) / static_cast<double>(count) : 0.0,
+                       unit_of(text_of(image, "Unit"))});
+    if (least) corner[static_cast<Eigen::Index>(k)] = *least;
+  }
+  take_lengths({2, 1, 0}, lengths, "Imaris' extent of the image", shape);
+  if (shape.voxel_size.minCoeff() > 0.0) shape.corner = corner;
+}
+
 bool is_of_matlab(hid_t data_set) { return H5Aexists(data_set, "MATLAB_class") > 0; }
 
 ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path) {
@@ -279,14 +408,21 @@ ArrayShape shape_of(hid_t file, const std::string& name, const std::string& path
     shape.roles[last - 1] = 0;
     shape.roles[last - 2] = 2;
   }
-  if (shape.roles.empty()) shape.roles = roles_of_axistags(data_set, shape.counts.size(), path);
-  if (shape.roles.empty()) shape.roles = roles_of_labels(data_set, shape.counts.size());
+  if (shape.roles.empty()) read_axistags(data_set, path, shape);
+  if (shape.roles.empty()) {
+    const std::vector<std::string> labels = texts_of(data_set, "DIMENSION_LABELS");
+    if (labels.size() == shape.counts.size()) shape.roles = roles_of(labels);
+  }
+  const auto is_unknown = [&] { return !(shape.voxel_size.minCoeff() > 0.0); };
   // Of Fiji and ilastik: z, y, x in micrometres.
-  const std::optional<Vector3> size_um = three_numbers(data_set, "element_size_um");
-  if (size_um) shape.voxel_size = size_um->reverse();
-  shape.unit = "um";
-  shape.size_source = "element_size_um";
-  if (!(shape.voxel_size.minCoeff() > 0.0)) read_dream3d(file, name, path, shape);
+  if (const std::optional<Vector3> size_um = three_numbers(data_set, "element_size_um")) {
+    shape.voxel_size = size_um->reverse();
+    shape.unit = "um";
+    shape.size_source = "element_size_um";
+  }
+  if (is_unknown() && !is_of_matlab(data_set)) read_nexus(file, data_set, name, shape);
+  if (is_unknown()) read_dream3d(file, name, path, shape);
+  if (is_unknown()) read_imaris(file, name, shape);
   return shape;
 }
 
@@ -393,7 +529,8 @@ class Hdf5Bytes : public MadeBytes {
 
 }  // namespace
 
-std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice) {
+std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& chosen) {
+  VolumeChoice choice = chosen;
   file_size(path);  // throws if there is no file
   std::string name;
   Sentence note;
@@ -417,8 +554,11 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
                     "has no data set of three dimensions with whole numbers, float32 or float64. "
                     "Links to other files are not followed. Save the voxels so, in one file.");
     }
-    VolumeChoice from_root = choice;
-    if (!choice.array.empty() && choice.array.front() != '/') from_root.array = "/" + choice.array;
+    if (!choice.array.empty() && choice.array.front() != '/') choice.array = "/" + choice.array;
+    if (choice.array.empty()) {
+      choice.array = imaris_volume(file, choice, path);
+      if (!choice.array.empty()) choice.channel = choice.frame = std::nullopt;
+    }
     // Of DREAM.3D's arrays of cells one has the labels.
     std::vector<std::string> labels;
     for (const std::string& one : names) {
@@ -428,9 +568,9 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
       note = "The array \"" + labels.front() + "\" was read, one of " +
              std::to_string(names.size()) + ". Choose another by " +
              mention("select", "array=NAME") + ".";
-      from_root.array = labels.front();
+      choice.array = labels.front();
     }
-    name = names[chosen_array(names, from_root, path)];
+    name = names[chosen_array(names, choice, path)];
     shape = shape_of(file, name, path);
     type = type_of(Handle(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose)).value();
     if (!(shape.voxel_size.minCoeff() > 0.0) && !choice.voxel_size) {

@@ -39,7 +39,7 @@ const Format* format_of(const std::string& path) {
       {{".npy"}, open_npy},
       {{".npz"}, open_npz},
       {{".vtk"}, open_legacy_vtk},
-      {{".h5", ".hdf5", ".hdf", ".dream3d", ".mat"}, open_hdf5},
+      {{".h5", ".hdf5", ".hdf", ".nxs", ".ims", ".dream3d", ".mat"}, open_hdf5},
       {{".json"}, open_raw},
   };
   std::string ending = ending_of(path);
