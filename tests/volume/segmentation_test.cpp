@@ -944,19 +944,21 @@ TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
 
 // A window of grey values that is too narrow moves the middle of the peaks, and so all surfaces.
 TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
-  // Void at 100 and grains at 300, with noise of 10, between the values of the window.
-  const auto doubts = [&](double least, double largest, bool is_dark) {
+  // Void at 100 and grains at 300, with a blur of 1 voxel, between the values of the window.
+  const auto doubts = [&](double least, double largest, double noise, bool is_dark) {
     made_ = MadeVolume({48, 30, 26});
     std::mt19937_64 engine(test::announced(8));
-    std::normal_distribution<double> noise(0.0, 10.0);
+    std::normal_distribution<double> deviation(0.0, 1.0);
     for (std::int32_t z = 0; z < 26; ++z) {
       for (std::int32_t y = 0; y < 30; ++y) {
         for (std::int32_t x = 0; x < 48; ++x) {
           const Vector3 p(x, y, z);
-          const bool is_grain =
-              (p - Vector3(12, 14, 13)).norm() < 8.0 || (p - Vector3(33, 16, 12)).norm() < 8.0;
-          const double grey = (is_grain != is_dark ? 300.0 : 100.0) + noise(engine);
-          made_.at(x, y, z) = static_cast<Label>(std::clamp(grey, least, largest));
+          const double depth = std::max(8.0 - (p - Vector3(12, 14, 13)).norm(),
+                                        8.0 - (p - Vector3(33, 16, 12)).norm());
+          const double inside = 0.5 + 0.5 * std::erf(depth / std::sqrt(2.0));
+          const double grey =
+              100.0 + 200.0 * (is_dark ? 1.0 - inside : inside) + noise * deviation(engine);
+          made_.at(x, y, z) = static_cast<Label>(std::lround(std::clamp(grey, least, largest)));
         }
       }
     }
@@ -967,17 +969,29 @@ TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
     for (const std::string& line : segmentation_lines(segmented(options))) text += line + "\n";
     return text;
   };
-  EXPECT_EQ(doubts(0.0, 500.0, false).find("cut off"), std::string::npos);
-  EXPECT_EQ(doubts(90.0, 310.0, false).find("cut off"), std::string::npos);
+  for (const double noise : {0.0, 2.0, 10.0}) {
+    const std::string clean = doubts(0.0, 500.0, noise, false);
+    for (const char* words : {"cut off", "end at once", "labels already"}) {
+      EXPECT_EQ(clean.find(words), std::string::npos) << noise << clean;
+    }
+  }
+  EXPECT_EQ(doubts(95.0, 305.0, 10.0, false).find("cut off"), std::string::npos);
   for (const bool is_dark : {false, true}) {
-    const std::string low = doubts(150.0, 500.0, is_dark);
-    EXPECT_NE(low.find("have one value, the least of the scan"), std::string::npos) << low;
+    const std::string low = doubts(150.0, 500.0, 10.0, is_dark);
+    EXPECT_NE(low.find("have one value, the least of the scan: "), std::string::npos) << low;
     EXPECT_NE(low.find(is_dark ? "come out too large" : "come out too small"), std::string::npos)
         << low;
-    const std::string high = doubts(0.0, 250.0, is_dark);
-    EXPECT_NE(high.find("have one value, the largest of the scan"), std::string::npos) << high;
+    const std::string high = doubts(0.0, 250.0, 10.0, is_dark);
+    EXPECT_NE(high.find("have one value, the largest of the scan: "), std::string::npos) << high;
     EXPECT_NE(high.find(is_dark ? "come out too small" : "come out too large"), std::string::npos)
         << high;
+    // Of both ends, with and without noise that reaches into the window.
+    const std::string both = doubts(113.0, 287.0, 10.0, is_dark);
+    EXPECT_NE(both.find("the least of the scan, and"), std::string::npos) << both;
+    EXPECT_NE(both.find("too small or too large"), std::string::npos) << both;
+    const std::string sharp = doubts(118.0, 282.0, 2.0, is_dark);
+    EXPECT_NE(sharp.find("the edges between them end at once"), std::string::npos) << sharp;
+    EXPECT_EQ(sharp.find("labels already"), std::string::npos) << sharp;
   }
 }
 

@@ -125,33 +125,15 @@ std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
-/// Returns the histogram of voxels that were scanned. `outside`: 1 for the others; empty: none.
-std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
-                                         const std::vector<std::uint8_t>& outside) {
-  std::vector<std::uint64_t> counts(
-      std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
-  for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (outside.empty() || outside[k] == 0) ++counts[grey[k]];
-  }
-  return counts;
-}
-
-/// Returns the histogram of the differences of neighbours along x for which counts(voxel, voxel
-/// before it) is true; `values`: the number of greys.
-template <class Counts>
+/// Returns the histogram of the differences of neighbours along x; `values`: the number of greys.
 std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
-                                          std::size_t values, const Counts& counts) {
+                                          std::size_t values) {
   std::vector<std::uint64_t> differences(values, 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (k % width == 0 || !counts(k, k - 1)) continue;
+    if (k % width == 0) continue;
     ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
   }
   return differences;
-}
-
-std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
-                                          std::size_t values) {
-  return differences_of(grey, width, values, [](std::size_t, std::size_t) { return true; });
 }
 
 /// Returns the histogram of the voxels whose six neighbours are alike. Voxels at the surface of
@@ -475,42 +457,6 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   result.brightest_space = values.base + values.step * brightest;
 }
 
-/// Notes how many voxels of the darker side have the least value, and of the brighter side the
-/// largest, if they are most and the other side has noise: a scan's window of grey values cut them
-/// off. `grey`: not smoothed.
-void note_cut_off(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
-                  const VoxelCounts& sizes, Segmentation& result) {
-  constexpr double most = 0.6;
-  constexpr double least_noise = 0.01;  // of the range of values
-  const std::vector<std::uint64_t> counts = counts_of_all(grey, outside);
-  const auto is_some = [](std::uint64_t count) { return count > 0; };
-  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return;
-  const auto parted = static_cast<std::size_t>(otsu_level(counts));
-  const std::size_t least = quantile_of(counts, 0.0);
-  const std::size_t largest = quantile_of(counts, 1.0);
-  const auto has_noise = [&](bool above) {
-    const auto is_on_side = [&](std::size_t k) {
-      return (outside.empty() || outside[k] == 0) && (grey[k] >= parted) == above;
-    };
-    const std::vector<std::uint64_t> differences = differences_of(
-        grey, static_cast<std::size_t>(sizes[0]), counts.size(),
-        [&](std::size_t a, std::size_t b) { return is_on_side(a) && is_on_side(b); });
-    // Without neighbours the noise is not known.
-    return std::any_of(differences.begin(), differences.end(), is_some) &&
-           static_cast<double>(quantile_of(differences, 0.5)) >
-               least_noise * static_cast<double>(largest - least);
-  };
-  const auto fraction_of = [&](std::size_t value, std::size_t begin, std::size_t end) {
-    const auto first = counts.begin() + static_cast<std::ptrdiff_t>(begin);
-    const auto last = counts.begin() + static_cast<std::ptrdiff_t>(end);
-    const std::uint64_t side = std::accumulate(first, last, std::uint64_t{0});
-    const double fraction = static_cast<double>(counts[value]) / static_cast<double>(side);
-    return fraction > most && has_noise(begin == 0) ? fraction : 0.0;
-  };
-  result.fraction_of_least = fraction_of(least, 0, parted);
-  result.fraction_of_largest = fraction_of(largest, parted, counts.size());
-}
-
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
 /// given, and the peaks of `result`. `left_out`: what was not scanned, to which the wall of a
 /// container is added.
@@ -521,7 +467,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   const VoxelCounts& sizes = scan.geometry().counts;
   ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
-  if (!options.threshold) note_cut_off(grey, left_out, sizes, result);
+  if (!options.threshold) result.cut_off = cut_off_greys(grey, left_out, sizes);
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
   const bool has_noise = range.values.size() > most_phases;
   GreyCounts counts = counts_of(grey, left_out, sizes, has_noise);
@@ -552,6 +498,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   for (const GreyPeak& peak : peaks) {
     result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }
+  result.is_flat = result.is_flat && !result.cut_off.has_edges;
   if (result.is_flat) {
     const auto smoothed = static_cast<std::size_t>(
         std::count_if(counts.all.begin(), counts.all.end(), [](auto count) { return count > 0; }));
@@ -760,6 +707,16 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
 }
 
 }  // namespace
+
+std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& outside) {
+  std::vector<std::uint64_t> counts(
+      std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
+  for (std::size_t k = 0; k < grey.size(); ++k) {
+    if (outside.empty() || outside[k] == 0) ++counts[grey[k]];
+  }
+  return counts;
+}
 
 Segmentation segment(LabelVolume& scan, const SegmentationOptions& options,
                      const Execution& execution) {

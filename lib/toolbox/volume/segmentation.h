@@ -73,6 +73,18 @@ struct EdgeSteps {
   bool are_told() const { return fraction >= 0.1; }
 };
 
+/// Grey values that were probably cut off when the scan was saved.
+struct CutOffGreys {
+  /// Of the voxels of the darker side, the fraction that has the least grey value, and of the
+  /// brighter side, that has the largest; 0: not cut off there.
+  double least = 0.0;
+  double largest = 0.0;
+  /// Fraction of all voxels at either end, if their edges end at once, but nothing tells noise: a
+  /// mask that was smoothed or resampled looks so too; else 0.
+  double at_ends = 0.0;
+  bool has_edges = false;  ///< middle values lie at edges, not in bodies as in labels
+};
+
 /// Result of segment.
 struct Segmentation {
   /// Grains from 1, each of one part, in the order in which they begin; 0 between them; dropped
@@ -89,10 +101,7 @@ struct Segmentation {
   /// differ by much of the contrast; else 0.
   double darkest_space = 0.0;
   double brightest_space = 0.0;
-  /// Of the voxels of the darker side, the fraction that has the least grey value, and of the
-  /// brighter side, that has the largest, if the scan's values were probably cut off there; else 0.
-  double fraction_of_least = 0.0;
-  double fraction_of_largest = 0.0;
+  CutOffGreys cut_off;
   double blur = 0.0;  ///< of the edges at the threshold, a standard deviation, voxels
   /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
   std::vector<EdgeSteps> steps;

@@ -272,23 +272,39 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
   }
 }
 
-/// Adds a doubt on grey values that were cut off at the least or the largest.
+/// Adds a doubt on grey values that were cut off at the least, the largest or both.
 void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
-  const auto add = [&](double fraction, bool is_least) {
-    if (fraction == 0.0) return;
-    const bool is_material = is_least == segmentation.is_dark;
-    doubts.push_back(
-        format_percent(fraction) + " of the voxels of the " +
-        (is_material ? "grains" : "space between the grains") + " have one value, the " +
-        (is_least ? "least" : "largest") + " of the scan: the values beyond it were " +
-        "probably cut off when the scan was saved. Then grains come out too " +
-        (is_material ? "large" : "small") +
-        ". Save the scan again with a wider range of grey values. If you know those of "
-        "grains and space before the cut, give " +
-        mention("threshold") + " half way between them.");
+  const CutOffGreys& cut_off = segmentation.cut_off;
+  const Sentence what_to_do =
+      "Save the scan again with a wider range of grey values. If you know those of "
+      "grains and space before the cut, give " +
+      mention("threshold") + " half way between them.";
+  if (cut_off.at_ends > 0.0) {
+    doubts.push_back(format_percent(cut_off.at_ends) +
+                     " of the voxels have the least or the largest grey value, and the edges "
+                     "between them end at once. This is right for a mask that was smoothed or "
+                     "resampled. Of a scan the values beyond were cut off when it was saved, and "
+                     "grains come out too small or too large. " +
+                     what_to_do);
+    return;
+  }
+  const auto share = [&](double fraction, bool is_least) {
+    return format_percent(fraction) + " of the voxels of the " +
+           (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
+           " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
   };
-  add(segmentation.fraction_of_least, true);
-  add(segmentation.fraction_of_largest, false);
+  if (cut_off.least > 0.0 && cut_off.largest > 0.0) {
+    doubts.push_back(share(cut_off.least, true) + ", and " + share(cut_off.largest, false) +
+                     ": the values beyond both were probably cut off when the scan was saved. Then "
+                     "grains come out too small or too large. " +
+                     what_to_do);
+  } else if (cut_off.least + cut_off.largest > 0.0) {
+    const bool is_least = cut_off.least > 0.0;
+    doubts.push_back(share(cut_off.least + cut_off.largest, is_least) +
+                     ": the values beyond it were probably cut off when the scan was saved. Then "
+                     "grains come out too " +
+                     (is_least == segmentation.is_dark ? "large" : "small") + ". " + what_to_do);
+  }
 }
 
 /// Adds a doubt on the grey values of void and material.

@@ -13,7 +13,8 @@
 
 namespace wscvt {
 
-struct EdgeSteps;  // segmentation.h
+struct CutOffGreys;  // segmentation.h
+struct EdgeSteps;
 
 // The steps of segment, in their order, and the neighbours of a voxel.
 
@@ -86,6 +87,16 @@ struct GreyPeak {
 /// tenths of its height, and has at least one voxel of a thousand. Of up to eight values each is a
 /// peak, as in a mask of phases, but if `has_noise` not where some are next to each other.
 std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts, bool has_noise);
+
+/// Returns the histogram of voxels that were scanned. `outside`: 1 for the others; empty: none.
+std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
+                                         const std::vector<std::uint8_t>& outside);
+
+/// Tells whether a window of grey values cut off those of void or material: many voxels have the
+/// least or the largest value, and there is noise beside them on one side only or in the other
+/// phase, or the edges between the phases end at once. `grey`: not smoothed; `outside`: as above.
+CutOffGreys cut_off_greys(const std::vector<std::uint16_t>& grey,
+                          const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes);
 
 /// Returns the value up to which a fraction of all counts lies.
 std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fraction);
