@@ -659,6 +659,18 @@ TEST(Remesh, FewNodesOfAThinBodyAreRefusedWithANumberThatFollowsIt) {
   }
 }
 
+TEST(Remesh, TooFewNodesOfAMeshWithASpikeNameItsVertex) {
+  IndexedMesh spiky = test::lumpy(3);
+  spiky.points[300] *= 13.0;
+  RemeshOptions options;
+  options.node_count = 20;
+  const std::string sentence =
+      test::refusal(ErrorCode::InvalidInput, [&] { remesh(spiky, options, Execution(1)); });
+  EXPECT_EQ(sentence.find("Vertex 300, counted from 0, lies at ("), 0U) << sentence;
+  EXPECT_NE(sentence.find("So long a spike needs more than 20 nodes"), std::string::npos)
+      << sentence;
+}
+
 TEST(Remesh, TellsOfTrianglesOfTheScanThatIntersectAtAnyNumberOfNodes) {
   IndexedMesh dented = test::lumpy(4);
   const Vector3 place = dented.points[100];

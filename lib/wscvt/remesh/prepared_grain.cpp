@@ -16,6 +16,7 @@
 #include "wscvt/remesh/as_published.h"
 #include "wscvt/remesh/on_scan.h"
 #include "wscvt/remesh/repaired_scan.h"
+#include "wscvt/repair/scan_advice.h"
 #include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
@@ -188,8 +189,12 @@ void refuse_too_few(const PreparedGrain& grain, const RemeshOptions& options,
   const std::string reason = too_few(grain, options, mesh, false, execution);
   if (reason.empty()) return;
   const auto count = static_cast<int>(mesh.points.size());
-  const std::string needs = "So long or thin a body needs more than " + std::to_string(count) +
-                            " nodes: " + reason + ". ";
+  const bool has_stray = grain.input.stray_distance > 0.0;
+  const std::string needs =
+      (has_stray ? stray_vertex_sentence(grain.input) +
+                       " Correct this vertex if it does not belong to the scan. So long a spike"
+                 : std::string("So long or thin a body")) +
+      " needs more than " + std::to_string(count) + " nodes: " + reason + ". ";
   constexpr int most_tried = 5000;
   int last = count;
   for (const int times : {2, 3, 5, 10, 20, 50, 100, 200}) {
