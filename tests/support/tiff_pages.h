@@ -26,6 +26,7 @@ struct TiffPages {
   int orientation = ORIENTATION_TOPLEFT;
   int extra = -1;           ///< kind of the last sample, EXTRASAMPLE_...; -1: none is extra
   int marks = 0;            ///< bits of NewSubfileType
+  int depth = 1;            ///< slices of a page
   int behind_first = 0;     ///< number of the pages after the first that are its SubIFDs
   std::string text;         ///< of the first page
   double resolution = 0.0;  ///< along x; half of it along y; 0: none
@@ -50,6 +51,7 @@ inline void write_tiff(const std::string& path, const TiffPages& as,
     TIFFSetField(file, TIFFTAG_COMPRESSION, as.compression);
     TIFFSetField(file, TIFFTAG_ORIENTATION, as.orientation);
     TIFFSetField(file, TIFFTAG_SUBFILETYPE, as.marks);
+    if (as.depth > 1) TIFFSetField(file, TIFFTAG_IMAGEDEPTH, as.depth);
     if (as.extra >= 0) {
       const auto kind = static_cast<std::uint16_t>(as.extra);
       TIFFSetField(file, TIFFTAG_EXTRASAMPLES, 1, &kind);

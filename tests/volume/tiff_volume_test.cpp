@@ -190,6 +190,13 @@ TEST_F(TiffVolume, ReadsPagesThatAreReducedByTheirMarkAlone) {
   expect_refused("a.tif", {"the page 4 of", "but the first has"});
 }
 
+TEST_F(TiffVolume, RefusesPagesOfSeveralSlicesWithAWay) {
+  TiffPages stack = as();
+  stack.depth = 2;
+  write_tiff(path("a.tif"), stack, pages());
+  expect_refused("a.tif", {"pages of 2 slices", "tifffile.imread(\"a.tif\")"});
+}
+
 TEST_F(TiffVolume, LeavesAConstantAlphaOut) {
   TiffPages stack = as();
   stack.samples = 2;

@@ -40,8 +40,8 @@ struct TiffPageShape {
   std::int64_t in_file = 1;  ///< number of the last of them in the file, from 1
 };
 
-/// Reads what the text of one of many slices, the file `path`, says of all: OME's size of voxels, or
-/// ImageJ's unit, distance of slices and calibration. Of another text nothing: the slice is no
+/// Reads what the text of one of many slices, the file `path`, says of all: OME's size of voxels,
+/// or ImageJ's unit, distance of slices and calibration. Of another text nothing: the slice is no
 /// stack. Throws as tiff_layout does.
 TiffLayout slice_layout(const std::string& description, const std::string& path);
 

@@ -142,7 +142,13 @@ Page page_of(const TiffFile& file) {
   if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG) {
     file.fail("is packed by JPEG, which changes numbers, so they are not labels any more");
   }
-  if (depth != 1) file.fail("has pages of " + std::to_string(depth) + " slices");
+  if (depth != 1) {
+    refuse_volume(file.path(),
+                  "has pages of " + std::to_string(depth) +
+                      " slices. Save one slice a page, in Python by import tifffile; "
+                      "tifffile.imwrite(\"pages.tif\", tifffile.imread(" +
+                      in_quotes(std::filesystem::path(file.path()).filename().string()) + "))");
+  }
   const bool is_float = format == SAMPLEFORMAT_IEEEFP && (bits == 32 || bits == 64);
   const bool has_sign = format == SAMPLEFORMAT_INT;
   const bool is_whole = (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_VOID || has_sign) &&
