@@ -319,6 +319,12 @@ TEST(Bodies, OfBothSidesOfWallsHavePoresAndBodiesInThem) {
   EXPECT_NEAR(bodies.list[1].volume, unit, 1e-9);
   EXPECT_EQ(bodies.list[2].name, "alone");
   EXPECT_NEAR(bodies.list[2].volume, 0.125 * unit, 1e-9);
+  // Names of the surfaces beside them make no body of a pore.
+  NamedFaces surfaces{{"a", "b", "c", "d"}, {}};
+  for (std::int32_t k = 0; k < 4; ++k) {
+    surfaces.of_face.insert(surfaces.of_face.end(), faces, k);
+  }
+  EXPECT_EQ(split_bodies(mesh, {surfaces, sides}, Execution(1)).list.size(), 3U);
   // Numbers of another meaning leave surfaces open, and are not used.
   for (std::size_t k = 0; k < sides.of_face.size(); ++k) {
     sides.of_face[k] = static_cast<std::int32_t>((k / 2 + k % 2) % 3);
@@ -434,9 +440,9 @@ TEST(Bodies, KeepWallsThatHaveTheNameOfOneSide) {
 // Each label's surface was made by itself: the wall of the pore and the grain in it are not alike.
 TEST(Bodies, FillPoresWithTrianglesOfTheirOwn) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.2, Vector3::UnitZ()).toRotationMatrix();
-  for (const double size : {0.97, 1.0, 1.03}) {
+  for (const auto& [size, shift] : {std::pair(0.97, 0.0), {1.0, 0.0}, {1.03, 0.0}, {1.0, 0.3}}) {
     const IndexedMesh grain = test::moved(test::transformed(test::sphere(3), turn, Vector3::Zero()),
-                                          size, Vector3::Zero());
+                                          size, {shift, 0.0, 0.0});
     for (const bool with_two : {false, true}) {
       IndexedMesh mesh = test::joined(ball(3.0, {0, 0, 0}), inside_out(test::sphere(3)));
       mesh = test::joined(mesh, grain);
@@ -552,6 +558,11 @@ TEST(Bodies, ThatOverlapAreTold) {
   const IndexedMesh one = ball(1.0, {0, 0, 0});
   EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1.2, 0, 0}))), 1);
   EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1e-6, 0, 0}))), 1) << "nearly a copy";
+  const IndexedMesh row =
+      test::joined(test::joined(one, ball(1.0, {1.2, 0, 0})), ball(1.0, {2.4, 0, 0}));
+  const std::vector<std::string> told = split_bodies(row, {}, Execution(1)).warnings;
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].rfind("Bodies 1 and 2 overlap, and 1 other pair.", 0), 0U) << told[0];
   // Beside each other, in a pore, and walls that cross a little.
   EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {2.0, 0, 0}))), 0);
   EXPECT_EQ(overlaps(test::joined(one, ball(1.0, {1.99, 0, 0}))), 0);
@@ -577,6 +588,15 @@ TEST(Bodies, LoseFacesThatHangOnThem) {
   EXPECT_TRUE(bodies.list[0].is_closed());
   ASSERT_EQ(bodies.warnings.size(), 1U);
   EXPECT_EQ(bodies.warnings[0].rfind("1 face hangs", 0), 0U) << bodies.warnings[0];
+  // Two, and some of the body's size, which are a body themselves.
+  mesh.triangles.push_back({t[1], t[2], static_cast<std::int32_t>(mesh.points.size()) - 1});
+  EXPECT_EQ(split_bodies(mesh, {}, Execution(1)).warnings[0].rfind("2 faces hang", 0), 0U);
+  mesh.points.back() *= 4.0;
+  const MeshBodies two = split_bodies(mesh, {}, Execution(1));
+  ASSERT_EQ(two.list.size(), 2U);
+  EXPECT_EQ(two.list[0].boundary_edges, 0U);
+  EXPECT_EQ(two.list[1].boundary_edges, 4U);
+  EXPECT_TRUE(two.warnings.empty());
 }
 
 TEST(Bodies, AreClosedAlongSeams) {
@@ -590,6 +610,108 @@ TEST(Bodies, AreClosedAlongSeams) {
   EXPECT_TRUE(bodies.list[0].is_closed() && bodies.list[1].is_closed());
   EXPECT_NEAR(bodies.list[1].volume / bodies.list[0].volume, 8.0, 1e-5);
   ASSERT_EQ(bodies.warnings.size(), 1U);
+  // No two corners are farther apart than the noise is.
+  const std::string before = "lay up to ";
+  const std::string& told = bodies.warnings[0];
+  const double distance = std::stod(told.substr(told.find(before) + before.size()));
+  EXPECT_GT(distance, 1e-8);
+  EXPECT_LT(distance, 4e-7);
+}
+
+// A void between bodies whose common walls are there once looks like a body.
+TEST(Bodies, ThatMayBeVoidsAreTold) {
+  Labels labels = filled({0, 0, 0}, {5, 3, 3}, 1);
+  for (auto& [cube, label] : labels) label = cube[0] < 2 ? 1 : 2;
+  labels.erase({1, 1, 1});
+  labels.erase({2, 1, 1});
+  const Exported file = exported(labels, Walls::Once, test::announced(6));
+  const MeshBodies bodies = split_bodies(file.mesh, {}, Execution(1));
+  EXPECT_EQ(volumes_of(bodies.list), (std::vector<double>{2.0, 17.0, 26.0}));
+  ASSERT_EQ(bodies.warnings.size(), 1U);
+  EXPECT_EQ(bodies.warnings[0].rfind("All faces of 1 body look into it", 0), 0U)
+      << bodies.warnings[0];
+}
+
+// What fills a pore of two bodies counts with both in the pore's volume.
+TEST(Bodies, OfWhichTwoFillAPoreTogetherLeaveOnePore) {
+  const Labels two = filled({0, 0, 0}, {1, 2, 2}, 1, filled({1, 0, 0}, {4, 2, 2}, 2));
+  const Exported inner = exported(two, Walls::Once, test::announced(7));
+  const IndexedMesh host = test::box(20.0, 22.0, 24.0);
+  const std::vector<MeshBody> bodies =
+      split_bodies(test::joined(host, inner.mesh), {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 3U);
+  EXPECT_EQ(bodies[0].pores, 1U);
+  EXPECT_NEAR(bodies[0].pore_volume, 16.0, 1e-9);
+  EXPECT_NEAR(bodies[0].volume, 20.0 * 22.0 * 24.0, 1e-9);
+  EXPECT_NEAR(bodies[1].volume + bodies[2].volume, 16.0, 1e-12);
+}
+
+TEST(Bodies, AreToldHoweverSmallTheyAreBesideAnother) {
+  Labels labels = filled({0, 0, 0}, {8, 8, 8}, 1);
+  labels[{8, 3, 2}] = 2;
+  const Exported file = exported(labels, Walls::Once, test::announced(8));
+  EXPECT_EQ(volumes_of(split_bodies(file.mesh, {}, Execution(1)).list),
+            (std::vector<double>{1.0, 512.0}));
+}
+
+TEST(Bodies, StandInTheOrderOfTheFileWhicheverWayTheyWereFound) {
+  // The faces of the first have no common vertices.
+  const IndexedMesh mesh =
+      test::joined(test::unwelded(test::sphere(0)), test::moved(test::sphere(3), 1.0, {5, 0, 0}));
+  const std::vector<MeshBody> bodies = split_bodies(mesh, {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].mesh.triangles.size(), 20U);
+  EXPECT_EQ(bodies[1].mesh.triangles.size(), 1280U);
+}
+
+TEST(Bodies, KeepTheirNamesWhereFacesAreNotUsable) {
+  IndexedMesh mesh =
+      test::joined(test::box(1, 1, 1), test::moved(test::box(1, 1, 2), 1, {5, 0, 0}));
+  NamedFaces names{{"one", "two"}, std::vector<std::int32_t>(12, 0)};
+  names.of_face.resize(24, 1);
+  // Faces without a place and without an area, at the beginning.
+  const auto nowhere = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.emplace_back(std::nan(""), 0.0, 0.0);
+  mesh.triangles.insert(mesh.triangles.begin(), {{0, 1, nowhere}, {1, 1, 2}});
+  names.of_face.insert(names.of_face.begin(), {1, 1});
+  const std::vector<MeshBody> bodies = split_bodies(mesh, {names}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].name, "one");
+  EXPECT_EQ(bodies[1].name, "two");
+  for (const MeshBody& body : bodies) EXPECT_EQ(body.mesh.triangles.size(), 12U);
+}
+
+TEST(Bodies, FillPoresWithTheirOwnFaces) {
+  const IndexedMesh grain = ball(1.0, {0.3, 0.2, 0.1});
+  const IndexedMesh host = test::joined(ball(3.0, {0, 0, 0}), inside_out(grain));
+  const std::vector<MeshBody> bodies =
+      split_bodies(test::joined(host, grain), {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_EQ(bodies[0].pores, 1U);
+  EXPECT_EQ(bodies[1].pores, 0U);
+  EXPECT_GT(signed_volume(bodies[1].mesh), 0.0);
+}
+
+// A surface inside another has some faces of it.
+TEST(Bodies, HaveAPoreThatTouchesTheirSurfaceFromWithin) {
+  const IndexedMesh host = exported(filled({0, 0, 0}, {4, 5, 6}, 1), Walls::OwnVertices, 1).mesh;
+  for (const std::array<int, 3>& low :
+       {std::array<int, 3>{0, 1, 2}, {3, 1, 2}, {1, 0, 2}, {1, 4, 2}, {1, 2, 0}, {1, 2, 5}}) {
+    const std::array<int, 3> high = {low[0] + 1, low[1] + 1, low[2] + 1};
+    const IndexedMesh inner = exported(filled(low, high, 1), Walls::OwnVertices, 1).mesh;
+    const std::vector<MeshBody> bodies =
+        split_bodies(test::joined(host, inner), {}, Execution(1)).list;
+    ASSERT_EQ(bodies.size(), 1U) << low[0] << low[1] << low[2];
+    EXPECT_EQ(bodies[0].pores, 1U);
+  }
+}
+
+TEST(Bodies, HaveAPoreThatAnotherPoreCuts) {
+  IndexedMesh mesh = test::joined(ball(3.0, {0, 0, 0}), inside_out(ball(1.0, {0, 0, 0})));
+  mesh = test::joined(mesh, inside_out(ball(0.4, {0.8, 0, 0})));
+  const std::vector<MeshBody> bodies = split_bodies(mesh, {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 1U);
+  EXPECT_EQ(bodies[0].pores, 2U);
 }
 
 TEST(Bodies, AreNotMadeOfNothing) {
