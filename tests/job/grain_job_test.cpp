@@ -19,10 +19,12 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/test_shapes.h"
 #include "toolbox/job/grain_files.h"
 #include "toolbox/report/sample_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {
@@ -170,14 +172,19 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   EXPECT_EQ(content("out/grain5.txt"), "5");
   EXPECT_EQ(content("out/grain7.txt"), "7");
   EXPECT_EQ(content("out/grains.csv"), table);
+  fs::remove(folder_ / "out/grain0.txt");
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 9) << "all but the failed";
   // One of several files too.
   job.folder = (folder_ / "more").string();
-  job.more_files = {{"tables", "csv"}};
+  job.more_files = {{"tables", "csv"}, {"grids", "json"}};
   const std::string more = (folder_ / "more/tables").string();
   job.make = [&, make = job.make](GrainAtWork& grain) {
     const JobFolder& place = grain.folders.front();
     const std::vector<std::string> rows = make(grain);
     write_file(place.file_of(grain.name, {"tables", "csv"}), grain.name + "\n");
+    write_file(place.file_of(grain.name, {"grids", "json"}), "{}\n");
     return rows;
   };
   run_job(job, grains, {1});
@@ -185,7 +192,11 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   run_job(job, grains, {1});
   EXPECT_EQ(made, 0);
   fs::remove(more + "/grain8.csv");
+  const std::vector<std::string> halves = {more + "/grain9.csv.part",
+                                           job.folder + "/summary.html.part"};
+  for (const std::string& half : halves) write_file(half, "half");
   run_job(job, grains, {1});
+  for (const std::string& half : halves) EXPECT_FALSE(fs::exists(half)) << half;
   EXPECT_EQ(made, 2) << "from grain 8 on";
   EXPECT_EQ(content("more/tables/grain8.csv"), "folder/grain8.ply\n");
   // A text that is cut, as by a full disk.
@@ -194,6 +205,10 @@ TEST_F(Job, MakesFilesAgainThatAreMissingOrEmpty) {
   run_job(job, grains, {1});
   EXPECT_EQ(made, 4) << "from grain 6 on";
   EXPECT_EQ(content("more/tables/grain6.csv"), "folder/grain6.ply\n");
+  write_file(job.folder + "/grids/grain7.json", "{");
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 3) << "from grain 7 on";
 }
 
 TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
@@ -323,12 +338,22 @@ TEST_F(Job, TakesNoRowsOfPartsThatAreOlderThanTheirScans) {
     return run_job(job, part, {1}).failed;
   };
   EXPECT_EQ(run(1, false) + run(2, false), 1U);
+  const auto now = fs::file_time_type::clock::now();
   for (const char* scan : {"2", "6"}) {  // one that failed, and one that was made
-    fs::last_write_time(folder_ / "scans" / scan,
-                        fs::file_time_type::clock::now() + std::chrono::seconds(1));
+    fs::last_write_time(folder_ / "scans" / scan, now + std::chrono::seconds(1000));
   }
+  // A file that is older than its scan, though its row is not.
+  fs::last_write_time(folder_ / "out/grain7.txt", now - std::chrono::seconds(2000));
+  fs::last_write_time(folder_ / "scans/7", now - std::chrono::seconds(1000));
   EXPECT_EQ(run(0, true), 0U);
-  EXPECT_EQ(made, 2);
+  EXPECT_EQ(made, 3);
+  // A part itself makes them again too.
+  int again = 0;
+  for (const int index : {1, 2}) {
+    run(index, true);
+    again += made;
+  }
+  EXPECT_GE(again, 2);
 }
 
 TEST_F(Job, PartsAreTheWhole) {
@@ -338,6 +363,7 @@ TEST_F(Job, PartsAreTheWhole) {
   for (const int index : {2, 1, 0}) {
     GrainJob job = number_job("out");
     if (index > 0) job.shard = {index, 2};
+    job.has_census = index > 0;
     job.make = [&, make = job.make](GrainAtWork& grain) {
       ++made;
       return make(grain);
@@ -347,6 +373,7 @@ TEST_F(Job, PartsAreTheWhole) {
     EXPECT_GT(part.size(), 5U);
     EXPECT_LT(part.size(), index == 0 ? 41U : 35U);
     run_job(job, part, {2});
+    EXPECT_EQ(content("out/labels.csv"), "what,file\r\ngrain0.txt,grain1.txt\r\n");
     const fs::path table = folders_of(job).front().table();
     EXPECT_EQ(table.filename(),
               index == 0 ? "grains.csv" : "grains-" + std::to_string(index) + "-of-2.csv");
@@ -385,7 +412,10 @@ TEST_F(Job, OnlyResultsStayOfOneThatIsNotKept) {
 TEST_F(Job, LevelsHaveTheirFilesAndTables) {
   GrainJob job = number_job("out");
   job.levels = {"n20", "n100"};
-  job.make = [](GrainAtWork& grain) {
+  int made = 0;
+  job.make = [&made](GrainAtWork& grain) {
+    ++made;
+    if (grain.name == Points(3).name(1)) throw Error(ErrorCode::InvalidInput, "No grain.");
     std::vector<std::string> records;
     for (const JobFolder& folder : grain.folders) {
       const std::string level = fs::path(folder.path()).filename().string();
@@ -396,9 +426,18 @@ TEST_F(Job, LevelsHaveTheirFilesAndTables) {
     return records;
   };
   Points grains(3);
-  run_job(job, grains, {2});
+  EXPECT_EQ(run_job(job, grains, {1}).failed, 1U);
+  // A file that a level lost is made again.
+  fs::remove(folder_ / "out/n100/grain2.txt");
+  made = 0;
+  run_job(job, grains, {1});
+  EXPECT_EQ(made, 1);
   for (const std::string level : {"n20", "n100"}) {
     EXPECT_EQ(content("out/" + level + "/grain2.txt"), level);
+    EXPECT_NE(content("out/" + level + "/grains.csv").find("grain1.ply,failed,No grain.,\r\n"),
+              std::string::npos);
+    EXPECT_NE(content("out/" + level + "/other.csv").find("grain1.ply,failed,\r\n"),
+              std::string::npos);
     const std::string row = "folder/grain2.ply,done," + level + "\r\n";
     const std::string table = content("out/" + level + "/other.csv");
     EXPECT_EQ(table.substr(table.size() - row.size()), row);
@@ -408,6 +447,132 @@ TEST_F(Job, LevelsHaveTheirFilesAndTables) {
   GrainJob other = number_job("out");
   other.call = "other options";
   EXPECT_THROW(run_job(other, grains, {1}), Error);
+}
+
+TEST_F(Job, OfTheWholeTakesOnlyWholeRowsOfPartsWithItsOptions) {
+  std::atomic<int> made{0};
+  std::vector<std::size_t> wanted;
+  const auto run = [&](int index, const std::string& call, bool breaks) {
+    GrainJob job = number_job("out");
+    job.is_kept = false;
+    job.call = call;
+    if (index > 0) job.shard = {index, 2};
+    job.make = [&made, breaks, make = job.make](GrainAtWork& grain) {
+      ++made;
+      if (breaks && grain.name == Points(3).name(2)) {
+        throw Error(ErrorCode::InvalidInput, "No grain.");
+      }
+      return make(grain);
+    };
+    made = 0;
+    JoinedGrains part(job.shard);
+    auto points = std::make_unique<Points>(30);
+    const Points& source = *points;
+    part.add(std::move(points));
+    const JobEnd end = run_job(job, part, {1});
+    wanted = source.wanted_;
+    return end;
+  };
+  const auto parts = [&](const std::string& call) {
+    const std::size_t failed = run(1, call, true).failed + run(2, call, true).failed;
+    EXPECT_EQ(failed, 1U);
+  };
+  const auto expect_only_results = [&] {
+    for (const std::string part : {"1-of-2", "2-of-2"}) {
+      for (const std::string& name : {"grains-" + part + ".csv", "call-" + part + ".json"}) {
+        EXPECT_FALSE(fs::exists(folder_ / "out" / name)) << name;
+      }
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out/call.json"));
+  };
+  parts("the options\n");
+  EXPECT_TRUE(fs::exists(folder_ / "out/call-1-of-2.json"));
+  EXPECT_EQ(run(0, "the options\n", false).failed, 1U) << "the row of a part";
+  EXPECT_EQ(made, 0);
+  EXPECT_TRUE(wanted.empty());
+  expect_only_results();
+  // Of other options.
+  parts("old options\n");
+  EXPECT_EQ(run(0, "the options\n", false).failed, 0U);
+  EXPECT_EQ(made, 30);
+  fs::remove_all(folder_ / "out");
+  // A row that only one of the tables has.
+  parts("the options\n");
+  const fs::path table = folder_ / "out/other-2-of-2.csv";
+  const std::string rows = content("out/other-2-of-2.csv");
+  fs::resize_file(table, rows.rfind("\r\n", rows.size() - 3) + 2);
+  run(0, "the options\n", false);
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(wanted.size(), 1U);
+  fs::remove_all(folder_ / "out");
+  // A table with other columns.
+  parts("the options\n");
+  write_file(table.string(), "grain,status,thrice\r\n" + rows.substr(rows.find("\r\n") + 2));
+  run(0, "the options\n", false);
+  EXPECT_EQ(static_cast<std::size_t>(made), wanted.size());
+  EXPECT_GT(made, 5);
+}
+
+TEST_F(Job, MakesWhatIsRefusedOnlyIfItTakesIt) {
+  class Refused : public Points {
+   public:
+    using Points::Points;
+    GrainScan read(std::size_t grain, bool pictures, const Execution& execution) override {
+      GrainScan scan = Points::read(grain, pictures, execution);
+      if (grain == 1) scan.refused = "Only crumbs.";
+      return scan;
+    }
+  };
+  for (const bool takes : {false, true}) {
+    GrainJob job = number_job(takes ? "taken" : "out");
+    job.takes_refused = takes;
+    Refused grains(3);
+    EXPECT_EQ(run_job(job, grains, {1}).failed, takes ? 0U : 1U);
+  }
+  EXPECT_NE(content("out/grains.csv").find("grain1.ply,failed,Only crumbs.,"), std::string::npos);
+  EXPECT_EQ(content("taken/grain1.txt"), "1");
+}
+
+TEST_F(Job, ReplacesNoCensusAndNoTableOfAnotherCommand) {
+  class OneVolume : public Points {
+   public:
+    using Points::Points;
+    std::size_t volumes() const override { return 1; }
+  };
+  fs::create_directories(folder_ / "out");
+  const std::string labels = (folder_ / "out/labels.csv").string();
+  OneVolume grains(2);
+  const auto refuses = [&](const GrainJob& job, const std::string& table) {
+    write_file(labels, table);
+    const std::string refusal =
+        test::refusal(ErrorCode::InvalidInput, [&] { run_job(job, grains, {1}); });
+    EXPECT_EQ(content("out/labels.csv") == table, !refusal.empty() || !job.has_census);
+    fs::remove(labels);
+    fs::remove_all(folder_ / "out/n5");
+    for (const char* name : {"call.json", "grains.csv", "other.csv"}) {
+      fs::remove(folder_ / "out" / name);
+    }
+    return !refusal.empty();
+  };
+  GrainJob job = number_job("out");
+  EXPECT_FALSE(refuses(job, "label,file\r\n1,a.txt\r\n"));
+  EXPECT_TRUE(refuses(job, "label,file\r\n1,grain1.txt\r\n")) << "a grain's file";
+  job.has_census = true;
+  EXPECT_TRUE(refuses(job, "label,file\r\n1,a.txt\r\n")) << "the census";
+  job.has_census = false;
+  job.levels = {"n5"};
+  EXPECT_FALSE(refuses(job, "label,file\r\n1,grain1.txt\r\n")) << "another folder";
+  job.levels.clear();
+  job.last_table = {"labels", "label,file\r\n"};
+  EXPECT_FALSE(refuses(job, "label,file\r\n1,grain1.txt\r\n")) << "its own table";
+  EXPECT_TRUE(refuses(job, "label,name\r\n1,a\r\n"));
+  // A kept job whose call is lost does not go on.
+  GrainJob kept = number_job("kept");
+  run_job(kept, grains, {1});
+  fs::remove(folder_ / "kept/call.json");
+  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { run_job(kept, grains, {1}); })
+                .find("call.json is missing"),
+            std::string::npos);
 }
 
 TEST_F(Job, OnlyTheGrainsOwnFailureIsInItsRow) {
@@ -462,6 +627,15 @@ TEST_F(Job, RefusesFilesThatWouldReplaceEachOther) {
   MeshGrains grain(scan);
   EXPECT_THROW(run_job(job, grain, {1}), Error);
   EXPECT_EQ(content("scan.ply"), "a scan");
+  // The mesh of which it is a body.
+  const IndexedMesh two =
+      test::joined(test::box(1, 1, 1), test::moved(test::box(1, 1, 1), 1.0, {3, 0, 0}));
+  write_mesh(two, (folder_ / "1.ply").string());
+  const std::string bodies = content("1.ply");
+  MeshGrains of_two((folder_ / "1.ply").string(), Execution(1));
+  EXPECT_EQ(of_two.size(), 2U);
+  EXPECT_THROW(run_job(job, of_two, {1}), Error);
+  EXPECT_EQ(content("1.ply"), bodies);
   // That of another grain, by a file beside its own.
   const std::string part = (folder_ / "scan_1.obj").string();
   write_file(part, "another scan");
@@ -474,6 +648,24 @@ TEST_F(Job, RefusesFilesThatWouldReplaceEachOther) {
   both.add(std::make_unique<MeshGrains>(part));
   EXPECT_THROW(run_job(job, both, {1}), Error);
   EXPECT_EQ(content("scan_1.obj"), "another scan");
+}
+
+TEST_F(Job, RequiresThatScansAreKeptWhereverTheyLie) {
+  GrainJob job = number_job("out");
+  job.levels = {"n20", "n100"};
+  job.more_files = {{"tables", "csv"}};
+  const Points grains(3);
+  for (const std::string name : {"out/n100/grain2.txt", "out/n20/tables/grain0.csv"}) {
+    const fs::path scan = folder_ / name;
+    fs::create_directories(scan.parent_path());
+    write_file(scan.string(), "a scan");
+    EXPECT_ERROR(require_scans_kept(job, grains, {scan.string()}), InvalidInput);
+    fs::create_directory_symlink(scan.parent_path(), folder_ / "link");
+    EXPECT_ERROR(require_scans_kept(job, grains, {(folder_ / "link" / scan.filename()).string()}),
+                 InvalidInput);
+    fs::remove(folder_ / "link");
+    EXPECT_NO_THROW(require_scans_kept(job, grains, {(folder_ / "grain2.txt").string()}));
+  }
 }
 
 TEST_F(Job, OneTableHasOneUnit) {

@@ -143,6 +143,8 @@ TEST(GrainRun, IsStoppedBeforeTheFirstGrain) {
   std::vector<std::size_t> done;
   host.progress = [&](const JobProgress& now) {
     done.push_back(now.done);
+    EXPECT_EQ(now.first, 2U);
+    EXPECT_EQ(now.count, 9U);
     return false;
   };
   const JobEnd end = run_grains(run_of(2, 9,
@@ -154,19 +156,98 @@ TEST(GrainRun, IsStoppedBeforeTheFirstGrain) {
   EXPECT_TRUE(end.was_cancelled());
   EXPECT_EQ(begun, 0);
   EXPECT_EQ(done, std::vector<std::size_t>{2});
+  EXPECT_EQ(end.done, 2U);
+  EXPECT_EQ(end.count, 9U);
+  EXPECT_EQ(end.when_stopped, "Begin again.");
+}
+
+TEST(GrainRun, StopsAGrainThatIsAtWork) {
+  std::atomic<bool> stops{false};
+  bool is_stopped = false;
+  GrainRun run = run_of(0, 3, {});
+  run.work = [&](std::size_t grain, const Execution& execution) -> GrainRow {
+    stops = grain == 1;
+    try {
+      execution.report(0.5, "At work");
+    } catch (const Error& error) {
+      is_stopped = error.code() == ErrorCode::Cancelled;
+      throw;
+    }
+    return {{"row"}};
+  };
+  JobHost host{1};
+  host.is_cancelled = [&] { return stops.load(); };
+  const JobEnd end = run_grains(run, host);
+  EXPECT_EQ(end.done, 1U);
+  EXPECT_TRUE(end.was_cancelled() && is_stopped);
+}
+
+// The rows behind it would fill the memory.
+TEST(GrainRun, DoesNotRunFarAheadOfAGrainThatTakesLong) {
+  constexpr std::size_t ahead = 64;  // 32 a thread
+  std::atomic<std::size_t> begun{0};
+  const JobEnd end = run_grains(run_of(0, 2000,
+                                       [&](std::size_t grain) {
+                                         ++begun;
+                                         if (grain > 0) return "";
+                                         while (begun < ahead) std::this_thread::yield();
+                                         std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                                         EXPECT_EQ(begun, ahead);
+                                         return "";
+                                       }),
+                                {2});
+  EXPECT_EQ(end.done, 2000U);
+}
+
+TEST(GrainRun, CountsFailuresBehindThoseOfBefore) {
+  GrainRun run = run_of(3, 9, {});
+  run.failed = 2;
+  run.work = [](std::size_t grain, const Execution&) -> GrainRow {
+    return {{"row"}, grain % 2 == 0 ? "" : "It broke."};
+  };
+  std::vector<std::string> told;
+  JobHost host{1};
+  host.failed = [&](const std::string& grain, const std::string& error) {
+    told.push_back(grain + ": " + error);
+  };
+  const JobEnd end = run_grains(run, host);
+  EXPECT_EQ(end.failed, 5U);
+  EXPECT_EQ(told, (std::vector<std::string>{"grain 3: It broke.", "grain 5: It broke.",
+                                            "grain 7: It broke."}));
+}
+
+TEST(GrainRun, OnlyFailuresOfTheGrainAreItsRow) {
+  const auto row_of = [](const std::function<void()>& fault) {
+    return row_or_failure(
+        [&]() -> GrainRow {
+          fault();
+          return {{"made"}};
+        },
+        [](const std::string& error) -> GrainRow {
+          return {{"failed"}, error};
+        });
+  };
+  EXPECT_EQ(row_of([] {}).records.front(), "made");
+  EXPECT_EQ(row_of([] { throw Error(ErrorCode::InvalidInput, "No grain."); }).error, "No grain.");
+  EXPECT_EQ(row_of([] { throw std::runtime_error("Broken."); }).error, "Broken.");
+  EXPECT_THROW(row_of([] { throw Error(ErrorCode::Cancelled, "Stop."); }), Error);
+  EXPECT_THROW(row_of([] { throw MachineRefused(Sentence("Full.")); }), MachineRefused);
+  EXPECT_THROW(row_of([] { throw std::bad_alloc(); }), std::bad_alloc);
 }
 
 TEST(GrainRun, AnExceptionEndsIt) {
-  std::atomic<int> begun{0};
-  const std::string message = message_of(run_of(0, 100000,
-                                                [&](std::size_t grain) {
-                                                  ++begun;
-                                                  if (grain == 5) throw std::runtime_error("here");
-                                                  return "";
-                                                }),
-                                         3);
-  EXPECT_NE(message.find(" of 100000 grains. here Begin again."), std::string::npos) << message;
-  EXPECT_LT(begun, 100000);
+  for (const int threads : {1, 3}) {
+    std::atomic<int> begun{0};
+    const auto work = [&](std::size_t grain) {
+      ++begun;
+      if (grain == 5) throw std::runtime_error("here");
+      return "";
+    };
+    const std::string message = message_of(run_of(2, 100000, work), threads);
+    const std::string expected = threads == 1 ? "after 5 of 100000 grains." : " of 100000 grains.";
+    EXPECT_NE(message.find(expected + " here Begin again."), std::string::npos) << message;
+    EXPECT_LT(begun, 100000);
+  }
 }
 
 }  // namespace
