@@ -78,6 +78,7 @@ TEST(CarriedAttributes, AreInterpolatedWithinATriangle) {
   scan.triangles = {{3, 3, 0}, {0, 1, 2}};  // the first has no area
   MeshAttributes own;
   own.of_vertices = {{"green", ScalarType::Uint8, {10, 50, 90, 7}},
+                     {"alpha", ScalarType::Uint8, {10, 50, 90, 7}},
                      {"phase", ScalarType::Uint8, {10, 50, 90, 7}}};
   own.of_faces = {{"part", ScalarType::Int32, {1, 2}}};
   IndexedMesh mesh;
@@ -88,7 +89,8 @@ TEST(CarriedAttributes, AreInterpolatedWithinATriangle) {
   EXPECT_NEAR(carried.of_vertices[0].values[0], 60.0, 1e-12);
   EXPECT_NEAR(carried.of_vertices[0].values[1], 60.0, 1e-12);
   EXPECT_NEAR(carried.of_vertices[0].values[2], 55.0, 1e-12);
-  EXPECT_EQ(carried.of_vertices[1].values, (std::vector<double>{90, 90, 50}));
+  EXPECT_EQ(carried.of_vertices[1].values, carried.of_vertices[0].values) << "a colour too";
+  EXPECT_EQ(carried.of_vertices[2].values, (std::vector<double>{90, 90, 50}));
   EXPECT_EQ(carried.of_faces[0].values, (std::vector<double>{2}));
 }
 

@@ -165,9 +165,32 @@ TEST(DescriptorTable, ComparesASphereWithOneTwiceAsLarge) {
 }
 
 TEST(DescriptorTable, NoPercentageWhereItSaysNothing) {
-  const std::vector<DescriptorValue> a = {{"skew", "skew", "", 1e-9, false}};
+  const std::vector<DescriptorValue> a = {{"skew", "skew", "", 0.5, false}};
   const std::vector<DescriptorValue> b = {{"skew", "skew", "", 0.1, false}};
   EXPECT_TRUE(std::isnan(compare_descriptors(a, b).front().error_percent));
+}
+
+// What is 0 for a ball has no scale of ratios, and has no percentage for other bodies either.
+TEST(DescriptorTable, NoPercentageOfWhatABallHasNot) {
+  DetailedDescriptors ball;
+  ball.basic = describe_shape(test::sphere(2), Execution(1));
+  ball.inertia_axes = ball.box_axes = {2.0, 2.0, 2.0};
+  ball.inertia_ratios = ball.box_ratios = form_ratios(ball.box_axes);
+  ball.orientation.eigenvalues = Vector3::Constant(1.0 / 3.0);
+  ball.orientation.compactness = 1.0;
+  std::set<std::string> zero;
+  const auto of_ball = list_descriptors(ball);
+  for (const std::string key : {"kong_fonseca_elongation_inertia", "kong_fonseca_flatness_inertia",
+                                "kong_fonseca_elongation_box", "kong_fonseca_flatness_box", "ssk",
+                                "sdq_clipped_fraction", "flakiness", "rodness"}) {
+    zero.insert(key);
+  }
+  for (const DescriptorValue& row : of_ball) {
+    EXPECT_EQ(row.on_ratio_scale, zero.count(row.key) == 0) << row.key;
+    if (!row.on_ratio_scale && row.key != "ssk") {
+      EXPECT_EQ(row.value, 0.0) << row.key;
+    }
+  }
 }
 
 TEST(DescriptorTable, NoPercentageAgainstAValueNearZero) {
@@ -208,8 +231,35 @@ TEST(DescriptorTable, LinesNameTheColumns) {
   EXPECT_NE(lines[0].find("mesh"), std::string::npos);
   EXPECT_EQ(lines[1].rfind("  volume, length^3 ", 0), 0U) << "the unit";
   EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
+  EXPECT_LT(lines[0].find("scan"), lines[0].find("mesh"));
+  EXPECT_LT(lines[1].find(" 0.1 "), lines[1].find(" 0.2 ")) << lines[1];
   EXPECT_EQ(lines[2].back(), '-');
   EXPECT_EQ(table_lines({{"one", "first", "", 1.5}}).back(), "  first       1.5");
+}
+
+TEST(DescriptorTable, TellsWhatTheVoxelsDid) {
+  const std::vector<DescriptorValue> values = {{"area", "surface area", "length^2", 12.0},
+                                               {"convexity", "convexity", "", 0.9},
+                                               {"sq", "roughness Sq", "length", 0.5}};
+  Resolution resolution;
+  resolution.voxels_across = 23.0;
+  const double none = std::nan("");
+  resolution.rows = {{"area", 12.0, 0.0, 0.0, 10.0, 9.0, 11.0},
+                     {"convexity", 0.9, 0.0, 0.0, 0.96, 0.95, 0.97},
+                     {"sq", 0.5, 0.0, 0.0, none, none, none}};
+  const auto rows = resolution_rows(values, resolution);
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"Descriptor", "value", "corrected", "low", "high"}));
+  EXPECT_EQ(rows[1], (std::vector<std::string>{"  surface area, length^2", "12", "10", "9", "11"}));
+  EXPECT_EQ(rows[2], (std::vector<std::string>{"  convexity", "0.9", "0.96", "0.95", "0.97"}));
+  EXPECT_EQ(rows[3],
+            (std::vector<std::string>{"  roughness Sq, length", "0.5", "not resolved", "", ""}));
+  // 12 is a fifth more than 10, and 0.9 a sixteenth less than 0.96.
+  EXPECT_EQ(resolution_sentence(resolution),
+            "The grain is 23 voxels across. Errors by the voxels, about: area +20.000 %, "
+            "convexity -6.250 %. Not resolved: Sq.");
+  resolution.has_voxels = false;
+  EXPECT_EQ(resolution_sentence(resolution).rfind("Nothing is resolved", 0), 0U);
 }
 
 }  // namespace

@@ -340,6 +340,17 @@ TEST(SampledDistances, FindTheTipOfAScan) {
   EXPECT_NEAR(sampled_distances(tip, test::sphere(4), 50, Execution(1)).largest, 0.25, 1e-12);
 }
 
+// The last face lies deeper than all others, and deepest in its middle, where no sample is.
+TEST(SampledDistances, LookIntoTheFacesThatAreFarthestByTheirCorners) {
+  IndexedMesh mesh = test::sphere(2);
+  for (const std::int32_t corner : mesh.triangles.back()) mesh.points[corner] *= 0.9;
+  const IndexedMesh scan = test::sphere(5);
+  const double deepest = largest_by_points(mesh, scan, 24);
+  EXPECT_GT(deepest, 0.105);
+  EXPECT_NEAR(sampled_distances(mesh, scan, 1, Execution(1)).to_reference.maximum, deepest,
+              0.01 * deepest);
+}
+
 /// The neighbours of a face without area cover it, also where it sticks out.
 TEST(SampledDistances, PassOverFacesWithoutArea) {
   IndexedMesh scan = test::sphere(5);

@@ -166,6 +166,28 @@ TEST(Descend, DoesNotWalkAlongAValleyWhoseFloorIsNearlyLevel) {
 }
 
 // Otherwise a body in another pose could get another box.
+TEST(ExtremePoints, AreTheFarthestInEachDirection) {
+  // The point that is farthest in most directions is the last.
+  std::mt19937_64 engine(test::announced(3));
+  std::normal_distribution<double> normal;
+  std::vector<Vector3> points;
+  for (int k = 0; k < 400; ++k) points.emplace_back(normal(engine), normal(engine), normal(engine));
+  points.emplace_back(9.0, 7.0, 8.0);
+  constexpr int directions = 60;
+  const std::vector<Vector3> extremes = extreme_points(points, directions, "", Execution(1));
+  EXPECT_LT(extremes.size(), 60U);
+  const auto reach = [](const std::vector<Vector3>& some, const Vector3& direction) {
+    double farthest = -1e9;
+    for (const Vector3& p : some) farthest = std::max(farthest, direction.dot(p));
+    return farthest;
+  };
+  for (const Vector3& direction : fibonacci_lattice(directions)) {
+    EXPECT_EQ(reach(extremes, direction), reach(points, direction));
+  }
+  points.resize(directions);
+  EXPECT_EQ(extreme_points(points, directions, "", Execution(1)), points) << "few are all";
+}
+
 TEST(FrameOf, TurnsWithThePoints) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const std::vector<Vector3> points = shard(40 + seed);

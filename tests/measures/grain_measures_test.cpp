@@ -60,6 +60,29 @@ TEST(GrainMeasures, DistancesAreFromTheGrainToTheReferenceAndBack) {
                                                DetailedOptions(), Execution(1));
   EXPECT_NEAR(measures.distances->to_reference.maximum, 0.3, 1e-12);
   EXPECT_LT(measures.distances->from_reference.maximum, 0.15);
+  // The tip makes the grain longer than the reference.
+  for (const DescriptorComparison& row : compare_descriptors(measures)) {
+    if (row.key != "volume" && row.key != "feret_max") continue;
+    EXPECT_GT(row.value, row.reference) << row.key;
+    EXPECT_GT(row.error_percent, 0.0) << row.key;
+  }
+}
+
+TEST(GrainMeasures, TellSpikesAndCornersThatWereMerged) {
+  const auto told = [](const IndexedMesh& mesh) {
+    return remarks(measure_grain({"ball", mesh}, std::nullopt, DetailedOptions(), Execution(1)));
+  };
+  IndexedMesh spike = test::sphere(2);
+  spike.points[5] *= 9.0;
+  EXPECT_EQ(count_of(told(spike), "Check that it belongs to the grain."), 1);
+  // Each face has its own corners, not quite in one place.
+  IndexedMesh soup = test::unwelded(test::sphere(2));
+  for (std::size_t k = 0; k < soup.points.size(); ++k) {
+    soup.points[k] *= 1.0 + 1e-7 * std::sin(static_cast<double>(k));
+  }
+  const std::vector<Sentence> merged = told(soup);
+  EXPECT_EQ(count_of(merged, "and were merged with them."), 1);
+  EXPECT_EQ(count_of(merged, "Check that"), 0);
 }
 
 TEST(GrainMeasures, TellHolesThatWereFilled) {
@@ -100,6 +123,7 @@ TEST(GrainMeasures, TellWhatTheEdgesAreTooLongFor) {
   };
   std::vector<Sentence> sentences = told(test::box(1, 1, 1));
   EXPECT_EQ(count_of(sentences, "'body' are too long to measure roundness"), 1);
+  EXPECT_EQ(count_of(sentences, "the largest inscribed sphere has radius 0.5."), 1);
   EXPECT_EQ(count_of(sentences, "'body' are too long to measure roughness"), 1);
   // Sharp edges: resolved to a quarter of the balls, which are a fifth of the inscribed sphere.
   sentences = told(test::subdivided(test::box(1, 1, 1), 5));

@@ -35,6 +35,24 @@ Vector3 nearest_point(const MeshDistance& mesh, const Vector3& point) {
   return mesh.nearest_point_of(face, point);
 }
 
+TEST(MeshTree, SignedDistancesOfABoxAreThoseToItsWallsNegativeInside) {
+  const Vector3 half(0.5, 1.0, 1.5);
+  const IndexedMesh box = test::box(1.0, 2.0, 3.0);
+  const std::vector<Vector3> points = points_about(box, 9);
+  const std::vector<double> distances = MeshDistance(box).signed_distances(points, Execution(2));
+  ASSERT_EQ(distances.size(), points.size());
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector3 beyond = points[i].cwiseAbs() - half;
+    const double outside = beyond.cwiseMax(0.0).norm();
+    const double expected = outside > 0.0 ? outside : beyond.maxCoeff();
+    EXPECT_NEAR(distances[i], expected, 1e-14);
+    if (expected < 0.0) ++inside;
+  }
+  EXPECT_GT(inside, 50U);
+  EXPECT_LT(inside, 900U);
+}
+
 TEST(MeshTree, AgreeWithAllFacesOneByOneNearAndFarInWhateverOrderThePointsCome) {
   const IndexedMesh mesh = test::lumpy(3);
   const MeshDistance boxes(mesh, Execution(1), "");

@@ -126,6 +126,7 @@ TEST(Roughness, HeightsAreTakenFromTheirMean) {
   const IndexedMesh mesh = test::sphere(4);
   const Roughness r = surface_roughness(mesh, 2.0, Execution(1));
   EXPECT_LT(r.sq, 1e-3);
+  EXPECT_LT(r.sa, 1e-3);
 }
 
 TEST(Roughness, DoesNotDependOnScalePoseOrOrder) {
@@ -158,6 +159,8 @@ TEST(Roughness, RefusesEdgesLongerThanAThirdOfTheCutOff) {
 }
 
 TEST(Roughness, LeastCutOffWeighsEdgesByArea) {
+  // Three times the mean edge of a triangle of 3, 4 and 5.
+  EXPECT_NEAR(least_cutoff({{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}}), 12.0, 1e-12);
   // One face of a box in a thousand small ones: its edges are few, its area is all.
   IndexedMesh mesh = test::box(1, 1, 1);
   const double all = least_cutoff(mesh);

@@ -167,6 +167,7 @@ TEST(Roundness, DoesNotDependOnScaleOrThreads) {
       wadell_roundness(test::moved(mesh, 1e-6, {3e-5, 0, 0}), 0.6e-6, ball, Execution(1));
   EXPECT_NEAR(one.roundness, small.roundness, 1e-6);
   EXPECT_NEAR(one.ball_radius, 1e6 * small.ball_radius, 1e-9);
+  EXPECT_NEAR(one.smallest_radius, small.smallest_radius, 1e-9);
   EXPECT_EQ(one.roundness, wadell_roundness(mesh, 0.6, ball, Execution(3)).roundness);
 }
 
