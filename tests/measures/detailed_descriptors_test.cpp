@@ -10,6 +10,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 namespace {
@@ -126,6 +127,7 @@ TEST(DetailedDescriptors, BodyWhoseCentroidLiesOutsideHasNoRadius) {
   EXPECT_NEAR(d.basic.volume, 0.4 * (4.0 - 1.96), 1e-12);
   EXPECT_NEAR(d.convexity, (4.0 - 1.96) / 4.0, 1e-12);
   EXPECT_FALSE(d.has_radius);
+  EXPECT_EQ(d.overhang_fraction, overhang_solid_angle(mesh, d.basic.centroid, Execution(1)));
   bool empty = false;
   for (const DescriptorValue& row : list_descriptors(d)) {
     if (row.key == "sdq_printed") empty = std::isnan(row.value);

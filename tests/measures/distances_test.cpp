@@ -9,6 +9,7 @@
 #include <random>
 
 #include "support/expect_error.h"
+#include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -342,7 +343,7 @@ TEST(SampledDistances, FindTheTipOfAScan) {
 
 // The last face lies deeper than all others, and deepest in its middle, where no sample is.
 TEST(SampledDistances, LookIntoTheFacesThatAreFarthestByTheirCorners) {
-  IndexedMesh mesh = test::sphere(2);
+  IndexedMesh mesh = test::shuffled(test::sphere(2), test::announced(5));
   for (const std::int32_t corner : mesh.triangles.back()) mesh.points[corner] *= 0.9;
   const IndexedMesh scan = test::sphere(5);
   const double deepest = largest_by_points(mesh, scan, 24);

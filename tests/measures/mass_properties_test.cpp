@@ -127,6 +127,18 @@ TEST(MassProperties, AxesOfASymmetricBodyHaveTheirLargestComponentPositive) {
   }
 }
 
+// Of components that differ only by rounding the first is positive.
+TEST(MassProperties, AxesBetweenTwoOfTheMeshsPointAlongTheFirst) {
+  for (const double rounding : {-1e-11, 1e-11}) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.75 * test::pi + rounding, Vector3::UnitZ()).toRotationMatrix();
+    const MassProperties mass = mass_of(test::transformed(test::box(3, 2, 1), turn));
+    const Vector3 longest = mass.principal_axes * Vector3::UnitX();
+    EXPECT_NEAR(longest.x(), std::sqrt(0.5), 1e-6) << rounding;
+    EXPECT_NEAR(longest.y(), -std::sqrt(0.5), 1e-6) << rounding;
+  }
+}
+
 /// Integral of (axis . (x - centroid))^3 over a body, of the tetrahedra that its faces span with
 /// the centroid, by a rule of five points that is exact to the third degree (Keast 1986,
 /// "Moderate-degree tetrahedral quadrature formulas").

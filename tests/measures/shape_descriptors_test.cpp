@@ -279,6 +279,10 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
     changed.sdq_half_clip = 0.5 * (1.0 + change);
     EXPECT_EQ(sdq_clip_sentence("the grain", changed).empty(), change < 0.02) << change;
   }
+  changed.sdq_clipped_fraction = 0.4;
+  const std::string larger = sdq_clip_sentence("the grain", changed);
+  EXPECT_NE(larger.find("Sdq is 50 % larger"), std::string::npos) << larger;
+  EXPECT_NE(larger.find("40 % of its square"), std::string::npos) << larger;
 }
 
 }  // namespace

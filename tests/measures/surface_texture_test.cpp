@@ -153,6 +153,7 @@ TEST(SurfaceTexture, IsNotNamedOfScansOfCoarseMeshesAndOfParts) {
     expect_none(turned(test::subdivided(test::tetrahedron(1.0), times)), "tetrahedron");
   }
   expect_none(test::bicone(64), "bicone");
+  expect_none(noisy(test::sphere(2), 0.06), "few faces");
   expect_none(test::torus(1.0, 0.3, 32), "torus");
   expect_none(test::overhanging_rim(10), "rim");
   // A cube of voxels, and a stair of a few steps.
@@ -176,6 +177,11 @@ TEST(SurfaceTexture, IsToldWithTheValuesThatAreFalse) {
   EXPECT_NE(noise.find("'body' is noisy"), std::string::npos) << noise;
   EXPECT_NE(noise.find("Area, sphericity, convexity"), std::string::npos) << noise;
   EXPECT_EQ(told(test::sphere(4)), "");
+  SurfaceTexture texture;
+  texture.kind = Texture::Noise;
+  texture.excess = 0.25;
+  const std::string sentence = texture_sentence(texture, "it");
+  EXPECT_NE(sentence.find("at least 25 % too large"), std::string::npos) << sentence;
 }
 
 }  // namespace
