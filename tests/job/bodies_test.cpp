@@ -714,6 +714,20 @@ TEST(Bodies, HaveAPoreThatAnotherPoreCuts) {
   EXPECT_EQ(bodies[0].pores, 2U);
 }
 
+TEST(Bodies, WithoutAnInsideAreOpen) {
+  // The projective plane of six corners has no sides.
+  IndexedMesh plane;
+  plane.points = {{0, 0, 3},    {1, 0, 0},         {0.2, 1, 0.1},
+                  {-1, 0.7, 0}, {-0.8, -0.9, 0.2}, {0.4, -1, 0}};
+  plane.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+                     {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  const std::vector<MeshBody> bodies =
+      split_bodies(test::joined(ball(1.0, {9, 0, 0}), plane), {}, Execution(1)).list;
+  ASSERT_EQ(bodies.size(), 2U);
+  EXPECT_TRUE(bodies[0].is_closed());
+  EXPECT_FALSE(bodies[1].is_closed());
+}
+
 TEST(Bodies, AreNotMadeOfNothing) {
   EXPECT_ERROR(split_bodies({}, {}, Execution(1)), InvalidInput);
   IndexedMesh flat = test::box(1.0, 2.0, 3.0);

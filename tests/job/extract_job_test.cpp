@@ -153,6 +153,9 @@ TEST_F(ExtractedGrains, OfABodiesJobAreFilesAndATableOfAllBodies) {
   const auto shapes = rows(content("out/shape.csv"), "grain");
   EXPECT_NEAR(std::stod(shapes.at(mesh + "/4").at("scan.volume [length^3]")), 1.0, 1e-12);
   EXPECT_EQ(shapes.at(mesh + "/4").count("resolution.voxel_size [length]"), 0U);
+  // Twelve edges and six diagonals.
+  EXPECT_NEAR(std::stod(shapes.at(mesh + "/4").at("scan.edge_length_mean [length]")),
+              (12.0 + 6.0 * std::sqrt(2.0)) / 18.0, 1e-12);
   // A part writes no census; what an earlier call made and this one does not goes.
   options.smallest_body = 1.0;
   options.describe = false;
@@ -320,6 +323,8 @@ TEST(ExtractJobs, MeasureWhatVoxelsOfAKnownCubeDid) {
   EXPECT_FALSE(has_rows(volume, 0.0)) << "no cube";
   volume.choice.voxel_size = Vector3(1.0, 1.0, 1.0);
   EXPECT_TRUE(has_rows(volume, 0.0));
+  EXPECT_EQ(resolution_of(volume, 0.5, scan, descriptors, Execution(1)).voxel_size, 0.5)
+      << "the scan's own is known";
   volume.smoothing = 3;
   EXPECT_FALSE(has_rows(volume, 1.0)) << "the biases are of another smoothing";
 }

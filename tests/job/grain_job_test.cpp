@@ -45,7 +45,8 @@ class Points : public GrainSource {
     return "folder/grain" + std::to_string(grain) + ".ply";
   }
   void want(const std::vector<std::size_t>& grains) override { wanted_ = grains; }
-  GrainScan read(std::size_t grain, bool, const Execution&) override {
+  GrainScan read(std::size_t grain, bool with_pictures, const Execution&) override {
+    has_pictures_ = with_pictures;
     GrainScan scan;
     scan.mesh.points = {Vector3(static_cast<double>(grain), 0.0, 0.0)};
     return scan;
@@ -55,6 +56,7 @@ class Points : public GrainSource {
   }
 
   std::vector<std::size_t> wanted_;
+  std::atomic<bool> has_pictures_{false};  ///< whether the last was read with them
 
  private:
   std::size_t count_;
@@ -527,7 +529,9 @@ TEST_F(Job, MakesWhatIsRefusedOnlyIfItTakesIt) {
     GrainJob job = number_job(takes ? "taken" : "out");
     job.takes_refused = takes;
     Refused grains(3);
+    job.reads_pictures = takes;
     EXPECT_EQ(run_job(job, grains, {1}).failed, takes ? 0U : 1U);
+    EXPECT_EQ(grains.has_pictures_, takes);
   }
   EXPECT_NE(content("out/grains.csv").find("grain1.ply,failed,Only crumbs.,"), std::string::npos);
   EXPECT_EQ(content("taken/grain1.txt"), "1");

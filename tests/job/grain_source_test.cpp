@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <set>
 #include <string>
@@ -78,6 +79,7 @@ TEST_F(Inputs, AreTheFilesOfFoldersPatternsAndListsInTheirOrder) {
 TEST(Parts, HaveEachGrainOnceWhereverItLies) {
   const Shard third = shard_of("3/3");
   EXPECT_EQ(std::pair(third.index, third.count), std::pair(3, 3));
+  EXPECT_EQ(shard_of("12/20").index, 12);
   for (const char* text : {"3", "0/3", "4/3", "1/0", "a/3", "1/b", "/", "1/2/3"}) {
     EXPECT_ERROR(shard_of(text), InvalidInput);
   }
@@ -93,6 +95,12 @@ TEST(Parts, HaveEachGrainOnceWhereverItLies) {
       EXPECT_TRUE(is_of(shard, "b/c/" + name)) << "the folder does not count";
     }
     EXPECT_EQ(parts, 1) << name;
+    // The hash is that of Fowler, Noll and Vo on every machine.
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char letter : name) {
+      hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+    }
+    EXPECT_TRUE(is_of({static_cast<int>(hash % 3) + 1, 3}, "a/" + name)) << name;
   }
   for (const int size : sizes) EXPECT_GT(size, 10);
 }
@@ -140,6 +148,15 @@ TEST_F(Inputs, ThatAreMeshesAreOneGrainOrTheirBodies) {
     EXPECT_EQ(alone[k]->file(0), alone[k]->name(0));
     EXPECT_EQ(alone[k]->read(0, false, Execution(1)).mesh.points.size(), k == 0 ? 8U : 16U);
   }
+  // Its attributes come with it.
+  MeshAttributes heights;
+  heights.of_vertices = {{"height", ScalarType::Float64, {1, 2, 3, 4, 5, 6, 7, 8}}};
+  write_mesh(large, heights, path("high.ply"));
+  const GrainScan high = MeshGrains(path("high.ply")).read(0, false, Execution(1));
+  ASSERT_EQ(high.attributes.of_vertices.size(), 1U);
+  EXPECT_EQ(high.attributes.of_vertices[0].values, heights.of_vertices[0].values);
+  const Execution stopped(1, [](double, const std::string&) { return false; });
+  EXPECT_ERROR(MeshGrains(path("two.ply"), stopped), Cancelled);
   MeshGrains refused(broken, Execution(1));
   EXPECT_EQ(refused.size(), 1U);
   EXPECT_ERROR(refused.read(0, false, Execution(1)), InvalidInput);

@@ -159,6 +159,9 @@ TEST_F(GrownGrains, HaveTheNumbersOfTheirMeshesAndTheLogHasTheirMeans) {
           "6 virtual grains of 9 real ones (2 left out), 3 donors each, degree 4, seed 3.", 0),
       0U)
       << grown.lines[0];
+  for (const std::string& line : grown.lines) {
+    EXPECT_EQ(line.find("Overhang"), std::string::npos) << "none has any";
+  }
   EXPECT_EQ(number_behind(grown.lines, "intersected itself: "), static_cast<double>(redrawn));
   EXPECT_NEAR(number_behind(grown.lines, "distance to the sample ("),
               1.36 * std::sqrt(1.0 / 9.0 + 1.0 / 6.0), 0.005);
