@@ -942,6 +942,28 @@ TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
   EXPECT_EQ(text.find("as of several minerals"), std::string::npos) << text;
 }
 
+// In much void most neighbours are equal without noise, as in labels, but the edges are of a scan.
+TEST_F(SegmentationOfAFile, TakesAScanWithoutNoiseForNoLabels) {
+  made_ = MadeVolume({60, 48, 44});
+  for (std::int32_t z = 0; z < 44; ++z) {
+    for (std::int32_t y = 0; y < 48; ++y) {
+      for (std::int32_t x = 0; x < 60; ++x) {
+        const double depth = 8.0 - (Vector3(x, y, z) - Vector3(25, 22, 20)).norm();
+        const double grey = 200.0 + 100.0 * std::erf(depth / std::sqrt(2.0));
+        made_.at(x, y, z) = static_cast<Label>(std::lround(grey));
+      }
+    }
+  }
+  write_made();
+  SegmentationOptions options;
+  for (const bool is_known : {false, true}) {
+    if (is_known) options.threshold = 200.0;
+    for (const std::string& line : segmentation_lines(segmented(options))) {
+      EXPECT_EQ(line.find("labels already"), std::string::npos) << is_known << line;
+    }
+  }
+}
+
 // A window of grey values that is too narrow moves the middle of the peaks, and so all surfaces.
 TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
   // Void at 100 and grains at 300, with a blur of 1 voxel, between the values of the window.

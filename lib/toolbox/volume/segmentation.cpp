@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numeric>
 #include <utility>
 
 #include "toolbox/volume/itk_filters.h"
@@ -467,7 +466,8 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   const VoxelCounts& sizes = scan.geometry().counts;
   ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
   auto& [grey, base, step] = values;
-  if (!options.threshold) result.cut_off = cut_off_greys(grey, left_out, sizes);
+  const CutOffGreys cut_off = cut_off_greys(grey, left_out, sizes);
+  if (!options.threshold) result.cut_off = cut_off;
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));
   const bool has_noise = range.values.size() > most_phases;
   GreyCounts counts = counts_of(grey, left_out, sizes, has_noise);
@@ -498,7 +498,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   for (const GreyPeak& peak : peaks) {
     result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }
-  result.is_flat = result.is_flat && !result.cut_off.has_edges;
+  result.is_flat = result.is_flat && !cut_off.has_edges;
   if (result.is_flat) {
     const auto smoothed = static_cast<std::size_t>(
         std::count_if(counts.all.begin(), counts.all.end(), [](auto count) { return count > 0; }));

@@ -288,19 +288,20 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
                      what_to_do);
     return;
   }
-  const auto share = [&](double fraction, bool is_least) {
+  const auto fraction_text = [&](double fraction, bool is_least) {
     return format_percent(fraction) + " of the voxels of the " +
            (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
            " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
   };
   if (cut_off.least > 0.0 && cut_off.largest > 0.0) {
-    doubts.push_back(share(cut_off.least, true) + ", and " + share(cut_off.largest, false) +
+    doubts.push_back(fraction_text(cut_off.least, true) + ", and " +
+                     fraction_text(cut_off.largest, false) +
                      ": the values beyond both were probably cut off when the scan was saved. Then "
                      "grains come out too small or too large. " +
                      what_to_do);
   } else if (cut_off.least + cut_off.largest > 0.0) {
     const bool is_least = cut_off.least > 0.0;
-    doubts.push_back(share(cut_off.least + cut_off.largest, is_least) +
+    doubts.push_back(fraction_text(cut_off.least + cut_off.largest, is_least) +
                      ": the values beyond it were probably cut off when the scan was saved. Then "
                      "grains come out too " +
                      (is_least == segmentation.is_dark ? "large" : "small") + ". " + what_to_do);
