@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/flat_json.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "support/volume_folder.h"
 #include "toolbox/fabric/fabric_files.h"
-#include "toolbox/sample/csv_reader.h"
 #include "toolbox/volume/segmentation.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
@@ -500,24 +500,10 @@ TEST_F(FabricOfAFile, CountsWithAnotherBackgroundAndCanBeStopped) {
       "Finding contacts", 20);
 }
 
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
-  std::istringstream stream(csv);
-  CsvReader reader(stream);
-  std::vector<std::string> names;
-  std::vector<std::string> fields;
-  std::vector<std::map<std::string, std::string>> rows;
-  reader.next(names);
-  while (reader.next(fields)) {
-    rows.emplace_back();
-    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = fields.at(k);
-  }
-  return rows;
-}
-
 TEST_F(FabricOfAFile, WritesWhatItMeasured) {
   const Fabric fabric = measured(chain());
-  const auto contacts = rows_of(contacts_csv(fabric));
-  const auto grains = rows_of(fabric_grains_csv(fabric));
+  const auto contacts = test::csv_rows(contacts_csv(fabric));
+  const auto grains = test::csv_rows(fabric_grains_csv(fabric));
   ASSERT_EQ(contacts.size(), fabric.contacts.size());
   ASSERT_EQ(grains.size(), 4U);
   // The table alone gives the tensor, the coordination and the sums.
@@ -679,13 +665,12 @@ Fabric numbered_fabric() {
 
 TEST(FabricNumbers, StandUnderTheirNamesInTheTables) {
   const Fabric fabric = numbered_fabric();
-  const auto expect = [](const std::map<std::string, std::string>& row,
-                         const std::map<std::string, double>& numbers) {
+  const auto expect = [](const test::CsvRow& row, const std::map<std::string, double>& numbers) {
     for (const auto& [name, number] : numbers) {
       EXPECT_EQ(std::stod(row.at(name)), number) << name;
     }
   };
-  const auto contacts = rows_of(contacts_csv(fabric));
+  const auto contacts = test::csv_rows(contacts_csv(fabric));
   ASSERT_EQ(contacts.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
     const FabricContact& c = fabric.contacts[k];
@@ -711,7 +696,7 @@ TEST(FabricNumbers, StandUnderTheirNamesInTheTables) {
                          {"at_border", k == 1 ? 1 : 0}});
     EXPECT_EQ(contacts[k].at("unit"), "mm");
   }
-  const auto grains = rows_of(fabric_grains_csv(fabric));
+  const auto grains = test::csv_rows(fabric_grains_csv(fabric));
   ASSERT_EQ(grains.size(), 3U);
   for (std::size_t k = 0; k < 3; ++k) {
     const FabricGrain& g = fabric.grains[k];

@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "differing_calls.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
@@ -17,7 +16,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
-using Row = std::map<std::string, std::string>;
+using Row = test::CsvRow;
 
 /// A long body away from the origin, and one that has no volume.
 class EngineScans : public NamedGrains {
@@ -47,14 +46,7 @@ class EngineJobs : public test::FileFolder {
     const JobEnd end = run_job(make_job(options, path("out")), grains, {1});
     EXPECT_EQ(end.done, 2U);
     EXPECT_EQ(end.failed, 1U);
-    const auto records = test::csv_records(content("out/grains.csv"));
-    std::vector<Row> rows;
-    for (std::size_t k = 1; k < records.size(); ++k) {
-      rows.emplace_back();
-      for (std::size_t c = 0; c < records[0].size(); ++c) {
-        rows.back()[records[0][c]] = records[k].at(c);
-      }
-    }
+    const std::vector<Row> rows = test::csv_rows(content("out/grains.csv"));
     EXPECT_EQ(rows.size(), 2U);
     return rows;
   }
@@ -117,27 +109,15 @@ TEST_F(EngineJobs, WritePartsInTheirSizeAndDensity) {
             (std::vector<std::string>{path("a_1.obj"), path("a_2.obj")}));
 }
 
-/// Expects each change of the options to change the call.
-template <class Job>
-void expect_calls_differ(const std::vector<std::function<void(Job&)>>& changes) {
-  std::map<std::string, std::size_t> calls;
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    Job options;
-    changes[k](options);
-    const auto [other, is_new] = calls.emplace(make_job(options, "out").call, k);
-    EXPECT_TRUE(is_new) << k << " as " << other->second;
-  }
-}
-
 TEST(EngineOptions, MustBeTheSameToGoOn) {
-  expect_calls_differ<ClumpJob>({[](ClumpJob&) {}, [](ClumpJob& job) { job.format = "py"; },
-                                 [](ClumpJob& job) { job.density = 2.0; },
-                                 [](ClumpJob& job) { job.frame.frame = Frame::Principal; },
-                                 [](ClumpJob& job) { job.frame.size = 2.0; },
-                                 [](ClumpJob& job) { job.frame.scale = 2.0; },
-                                 [](ClumpJob& job) { job.clump.sphere_count = 7; },
-                                 [](ClumpJob& job) { job.clump.inside = true; }});
-  expect_calls_differ<ConvexJob>(
+  test::expect_calls_differ<ClumpJob>({[](ClumpJob&) {}, [](ClumpJob& job) { job.format = "py"; },
+                                       [](ClumpJob& job) { job.density = 2.0; },
+                                       [](ClumpJob& job) { job.frame.frame = Frame::Principal; },
+                                       [](ClumpJob& job) { job.frame.size = 2.0; },
+                                       [](ClumpJob& job) { job.frame.scale = 2.0; },
+                                       [](ClumpJob& job) { job.clump.sphere_count = 7; },
+                                       [](ClumpJob& job) { job.clump.inside = true; }});
+  test::expect_calls_differ<ConvexJob>(
       {[](ConvexJob&) {}, [](ConvexJob& job) { job.format = "xml"; },
        [](ConvexJob& job) { job.density = 2.0; },
        [](ConvexJob& job) { job.frame.frame = Frame::Principal; },

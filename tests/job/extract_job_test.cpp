@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "differing_calls.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
@@ -24,7 +25,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
-using Row = std::map<std::string, std::string>;
+using Row = test::CsvRow;
 
 IndexedMesh turned_inward(IndexedMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -33,19 +34,6 @@ IndexedMesh turned_inward(IndexedMesh mesh) {
 
 class ExtractedGrains : public test::FileFolder {
  protected:
-  /// The rows of a table, by a column.
-  std::map<std::string, Row> rows(const std::string& text, const std::string& by) const {
-    const auto records = test::csv_records(text);
-    std::map<std::string, Row> result;
-    for (std::size_t k = 1; k < records.size(); ++k) {
-      Row row;
-      EXPECT_EQ(records[k].size(), records[0].size());
-      for (std::size_t c = 0; c < records[0].size(); ++c) row[records[0][c]] = records[k].at(c);
-      result[row.at(by)] = row;
-    }
-    return result;
-  }
-
   /// In the order of the file: an open ball; a box with a pore; one of 1.5 % and one of 0.5 % of
   /// its volume.
   std::string write_bodies() const {
@@ -91,10 +79,10 @@ TEST_F(ExtractedGrains, AreTheClosedBodiesThatAreLargeEnough) {
   EXPECT_EQ(grains.warnings()[0].rfind("Open surfaces have 40.5 % of the faces.", 0), 0U)
       << grains.warnings()[0];
 
-  const auto census = rows(grains.census([](const std::string& grain) -> MadeGrain {
+  const auto census = test::csv_rows(grains.census([](const std::string& grain) -> MadeGrain {
     return {grain.substr(grain.size() - 1) + ".stl"};
   }),
-                           "body");
+                                     "body");
   ASSERT_EQ(census.size(), 4U);
   const std::vector<std::string> states = {"open", "written", "written", "too small"};
   const std::vector<std::string> files = {"", "2.stl", "3.stl", ""};
@@ -150,7 +138,7 @@ TEST_F(ExtractedGrains, OfABodiesJobAreFilesAndATableOfAllBodies) {
   EXPECT_NEAR(volume_of(read_mesh(path("out/2.ply")), Execution(1)), 199.0, 1e-9);
   EXPECT_TRUE(fs::exists(path("out/4.ply")));
   EXPECT_FALSE(fs::exists(path("out/grains.csv")));
-  const auto shapes = rows(content("out/shape.csv"), "grain");
+  const auto shapes = test::csv_rows(content("out/shape.csv"), "grain");
   EXPECT_NEAR(std::stod(shapes.at(mesh + "/4").at("scan.volume [length^3]")), 1.0, 1e-12);
   EXPECT_EQ(shapes.at(mesh + "/4").count("resolution.voxel_size [length]"), 0U);
   // Twelve edges and six diagonals.
@@ -160,14 +148,14 @@ TEST_F(ExtractedGrains, OfABodiesJobAreFilesAndATableOfAllBodies) {
   options.smallest_body = 1.0;
   options.describe = false;
   for (const int index : {1, 2}) EXPECT_TRUE(run(options, {index, 2}).empty());
-  EXPECT_EQ(rows(content("out/bodies.csv"), "body").at("4").at("state"), "written");
+  EXPECT_EQ(test::csv_rows(content("out/bodies.csv"), "body").at("4").at("state"), "written");
   EXPECT_EQ(run(options, {}),
             (std::vector<std::string>{
                 "4 bodies: 2 written, 1 too small, 1 open and only listed, 1 pore in them",
                 "1 file of the earlier call removed"}));
   EXPECT_FALSE(fs::exists(path("out/4.ply")));
   EXPECT_TRUE(fs::exists(path("out/2.ply")) && fs::exists(path("out/3.ply")));
-  EXPECT_EQ(rows(content("out/bodies.csv"), "body").at("4").at("state"), "too small");
+  EXPECT_EQ(test::csv_rows(content("out/bodies.csv"), "body").at("4").at("state"), "too small");
 }
 
 TEST_F(ExtractedGrains, OfLabelsHaveTheirSizeTheirWarningsAndTheirRows) {
@@ -186,11 +174,11 @@ TEST_F(ExtractedGrains, OfLabelsHaveTheirSizeTheirWarningsAndTheirRows) {
     EXPECT_EQ(scan.warnings.size(), is_in_pieces ? 1U : 0U);
     records[grains.name(k)] = scan.record("made.ply");
   }
-  const auto census = rows(grains.census([&](const std::string& grain) -> MadeGrain {
+  const auto census = test::csv_rows(grains.census([&](const std::string& grain) -> MadeGrain {
     if (grain == path("v.nrrd/7")) return {"", "", "It broke."};
     return {"4.ply", records.at(grain)};
   }),
-                           "label");
+                                     "label");
   ASSERT_EQ(census.size(), 4U);
   EXPECT_EQ(census.at("4").at("state"), "in 2 pieces");
   EXPECT_EQ(census.at("4").at("file"), "made.ply");
@@ -216,11 +204,11 @@ TEST_F(ExtractedGrains, OfBodiesHaveTheWarningsAndTheNamesOfTheirFile) {
   const std::string faces = "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\n";
   file("b.obj", faces + "v 9 0 0\nv 10 0 0\nv 9 1 0\nv 9 0 1\no host\nf 1 3 2\nf 1 2 4\nf 1 4 3\n" +
                     "f 2 3 4\no crumb\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
-  const auto census =
-      rows(BodyGrains(path("b.obj"), 0.0, Execution(1)).census([](const std::string&) -> MadeGrain {
+  const auto census = test::csv_rows(
+      BodyGrains(path("b.obj"), 0.0, Execution(1)).census([](const std::string&) -> MadeGrain {
         return {"a.ply"};
       }),
-           "name");
+      "name");
   EXPECT_NEAR(std::stod(census.at("host").at("volume")), 4.0, 1e-12);
   EXPECT_EQ(census.at("crumb").at("body"), "2");
 }
@@ -240,7 +228,7 @@ TEST_F(ExtractedGrains, ThatFailAreListedWithTheirErrors) {
   EXPECT_EQ(run_job(job, grains, {1}).failed, 1U);
   EXPECT_EQ(write_census(options, job, grains).front(),
             "4 labels: 1 written (1 in pieces), 1 at the border, 1 too small, 1 failed");
-  const auto census = rows(content("out/labels.csv"), "label");
+  const auto census = test::csv_rows(content("out/labels.csv"), "label");
   EXPECT_EQ(census.at("7").at("state"), "failed");
   EXPECT_EQ(census.at("7").at("error"), "It broke.");
   EXPECT_EQ(census.at("4").at("file"), "4.ply");
@@ -262,7 +250,7 @@ TEST_F(ExtractedGrains, ThatAreCrumbsAreRefusedAndDescribedAsFailed) {
   const JobEnd end = run_job(job, grains, {1});
   EXPECT_EQ(end.done, 2U);
   EXPECT_FALSE(fs::exists(path("out/2.ply")));
-  const auto shapes = rows(content("out/shape.csv"), "grain");
+  const auto shapes = test::csv_rows(content("out/shape.csv"), "grain");
   const Row& crumbs = shapes.at(path("v.nrrd/2"));
   EXPECT_EQ(crumbs.at("status"), "failed");
   EXPECT_NE(crumbs.at("error").find("in 7 pieces"), std::string::npos) << crumbs.at("error");
@@ -274,7 +262,7 @@ TEST_F(ExtractedGrains, ThatAreCrumbsAreRefusedAndDescribedAsFailed) {
   const std::vector<std::string> lines = write_census(options, job, grains);
   ASSERT_GE(lines.size(), 2U);
   EXPECT_NE(lines[1].find("Voxels across a grain: 9.93"), std::string::npos) << lines[1];
-  const auto census = rows(content("out/labels.csv"), "label");
+  const auto census = test::csv_rows(content("out/labels.csv"), "label");
   EXPECT_EQ(census.at("1").at("state"), "written");
   EXPECT_EQ(census.at("1").at("file"), "1.ply");
 }
@@ -300,13 +288,7 @@ TEST(ExtractJobs, GoOnOnlyWithTheSameOptions) {
         job.table = "bodies";
         job.smallest_body = 2.0;
       }};
-  std::map<std::string, std::size_t> calls;
-  for (std::size_t k = 0; k < changes.size(); ++k) {
-    ExtractJob job;
-    changes[k](job);
-    const auto [other, is_new] = calls.emplace(make_job(job, "out").call, k);
-    EXPECT_TRUE(is_new) << k << " as " << other->second;
-  }
+  test::expect_calls_differ(changes);
 }
 
 TEST(ExtractJobs, MeasureWhatVoxelsOfAKnownCubeDid) {

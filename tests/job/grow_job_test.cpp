@@ -29,7 +29,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
-using Row = std::map<std::string, std::string>;
+using Row = test::CsvRow;
 
 constexpr int grown_degree = 4;
 constexpr std::size_t real_grains = 9;
@@ -98,16 +98,7 @@ class GrownGrains : public test::FileFolder {
     return result;
   }
 
-  std::vector<Row> rows() const {
-    const auto records = test::csv_records(content("out/grown.csv"));
-    std::vector<Row> result;
-    for (std::size_t k = 1; k < records.size(); ++k) {
-      Row row;
-      for (std::size_t c = 0; c < records[0].size(); ++c) row[records[0][c]] = records[k].at(c);
-      result.push_back(row);
-    }
-    return result;
-  }
+  std::vector<Row> rows() const { return test::csv_rows(content("out/grown.csv")); }
 };
 
 TEST_F(GrownGrains, HaveTheNumbersOfTheirMeshesAndTheLogHasTheirMeans) {

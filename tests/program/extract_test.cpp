@@ -37,16 +37,8 @@ class Extract : public test::ProgramRun {
   }
 
   /// The rows of a table by a column's values.
-  std::map<std::string, std::map<std::string, std::string>> rows(const std::string& table,
-                                                                 const std::string& by) const {
-    const auto records = test::csv_records(content(table));
-    std::map<std::string, std::map<std::string, std::string>> result;
-    for (std::size_t k = 1; k < records.size(); ++k) {
-      std::map<std::string, std::string> row;
-      for (std::size_t c = 0; c < records[0].size(); ++c) row[records[0][c]] = records[k].at(c);
-      result[row.at(by)] = row;
-    }
-    return result;
+  std::map<std::string, test::CsvRow> rows(const std::string& table, const std::string& by) const {
+    return test::csv_rows(content(table), by);
   }
 
   test::MadeVolume volume_{{70, 60, 60}};

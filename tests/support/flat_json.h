@@ -42,6 +42,30 @@ inline std::vector<std::vector<std::string>> csv_records(const std::string& text
   return records;
 }
 
+/// A row of a table: its values by the names of their columns.
+using CsvRow = std::map<std::string, std::string>;
+
+/// The rows of a table whose first record names the columns.
+inline std::vector<CsvRow> csv_rows(const std::string& text) {
+  const auto records = csv_records(text);
+  std::vector<CsvRow> rows;
+  for (std::size_t k = 1; k < records.size(); ++k) {
+    EXPECT_EQ(records[k].size(), records[0].size());
+    rows.emplace_back();
+    for (std::size_t c = 0; c < records[0].size(); ++c) {
+      rows.back()[records[0][c]] = records[k].at(c);
+    }
+  }
+  return rows;
+}
+
+/// The same by the values of the column `by`.
+inline std::map<std::string, CsvRow> csv_rows(const std::string& text, const std::string& by) {
+  std::map<std::string, CsvRow> rows;
+  for (const CsvRow& row : csv_rows(text)) rows[row.at(by)] = row;
+  return rows;
+}
+
 /// Every member that is not in a list by its path; of lists, those of sentences.
 inline void flatten(const nlohmann::ordered_json& value, const std::string& path,
                     std::map<std::string, nlohmann::ordered_json>& members) {
