@@ -51,6 +51,16 @@ def test_remesh_gives_arrays_of_exactly_n_nodes(scan):
     assert "300 nodes, 596 faces" in str(result)
 
 
+def test_the_module_needs_no_library_of_the_formats_of_volumes():
+    module, = pathlib.Path(wscvt.__file__).parent.glob("_wscvt*.so")
+    read = subprocess.run(["readelf", "-d", module], capture_output=True, text=True, check=True).stdout
+    needed = re.findall(r"NEEDED.*\[lib(.+)\.so", read)
+    assert "c" in needed
+    # Whoever has arrays should not need them.
+    assert not {"tiff", "png", "png16", "lz4", "bz2", "minizip", "niftiio", "nifti2", "expat"} & set(needed)
+    assert not [name for name in needed if name.startswith("hdf5")]
+
+
 def test_arrays_outlive_what_they_came_from(scan):
     result = wscvt.remesh(*scan, nodes=60)
     vertices, copy = result.vertices, result.vertices.copy()
