@@ -81,6 +81,18 @@ TEST(Coordinates, LatticesAreNotSuspected) {
   EXPECT_EQ(precision_warning(IndexedMesh()), "");
 }
 
+TEST(Coordinates, AHugeOneHasNoStep) {
+  // Its edges have a step beside which the products of the other coordinates are too small for a
+  // number.
+  IndexedMesh mesh = test::lumpy(3);
+  mesh.triangles.push_back({0, 0, 1});  // a lost face
+  for (const double huge : {1e300, -1e305}) {
+    mesh.points[2].x() = huge;
+    for (std::size_t k = 3; k < mesh.points.size(); ++k) mesh.points[k] *= 1e-14;
+    EXPECT_EQ(precision_warning(mesh), "");
+  }
+}
+
 TEST(Coordinates, EveryPointCountsForTheSize) {
   for (const double far : {1e61, -1e61}) {
     for (std::size_t i = 0; i < 4; ++i) {

@@ -737,13 +737,18 @@ TEST(MeshCheck, KeepsAHoleBesideAClosedSeam) {
 }
 
 TEST(MeshCheck, NamesAStrayVertex) {
-  for (const double far : {30.0, 100.0, 1e5, 1e9, 1e30}) {
+  for (const double far : {30.0, 100.0, 1e5, 1e9, 1e30, 1e200}) {
     SCOPED_TRACE(far);
     IndexedMesh body = sphere(3);
     body.points[300] *= far;
     const std::string sentence = refusal(body);
     EXPECT_EQ(sentence == "", far == 30.0) << sentence;
     if (far > 30.0) expect_mentions(sentence, {"Vertex 300, counted from 0, lies at (", "Correct"});
+    // The square of the farthest distance is no number.
+    EXPECT_EQ(sentence.find("inf"), std::string::npos) << sentence;
+    EXPECT_EQ(sentence.find(" from its nearest neighbour") != std::string::npos,
+              far > 30.0 && far < 1e200)
+        << sentence;
   }
   IndexedMesh body = sphere(3);
   body.points[300] *= 20.0;

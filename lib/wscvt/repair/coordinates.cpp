@@ -42,6 +42,7 @@ bool all_coordinates(const IndexedMesh& mesh, const Fits& fits) {
 /// Whether a number has at most this many decimals.
 bool has_decimals(double value, double power_of_ten) {
   const double scaled = value * power_of_ten;
+  if (scaled == 0.0) return value == 0.0;  // not if the product is too small for a number
   // Reading and the product each have an error of half an ulp.
   return std::abs(scaled - std::round(scaled)) <=
          4.0 * std::numeric_limits<double>::epsilon() * std::abs(scaled);

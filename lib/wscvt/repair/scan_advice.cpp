@@ -48,9 +48,12 @@ std::string merged_warning(std::size_t corners, double distance) {
 
 std::string stray_vertex_sentence(const std::string& vertex, const Vector3& place,
                                   double distance) {
+  // The square of a distance above 1e154 is no number.
   return vertex + " lies at (" + format_number(place.x()) + ", " + format_number(place.y()) + ", " +
-         format_number(place.z()) + "), " + format_number(distance, 2) +
-         " from its nearest neighbour.";
+         format_number(place.z()) + ")" +
+         (std::isfinite(distance)
+              ? ", " + format_number(distance, 2) + " from its nearest neighbour."
+              : ".");
 }
 
 std::string stray_vertex_sentence(const MeshCheckReport& report) {
