@@ -344,6 +344,19 @@ TEST(OnScan, AScanThatMeetsItselfIsToldAShrinkWrapThatWasTried) {
   EXPECT_EQ(report_of(remesh(ball, followed)).nodes.self_intersections, 0u);
 }
 
+TEST(OnScan, FewNodesOfAScanThatMeetsItselfAreNotRefusedForMore) {
+  // With 750 nodes, triangles of its remesh happen not to intersect.
+  IndexedMesh dented = test::lumpy(3);
+  const Vector3 place = dented.points[100];
+  for (Vector3& p : dented.points) {
+    if ((p - place).norm() < 0.2) p *= -0.6;
+  }
+  const RemeshResult result = remesh(dented, options_of(150));
+  EXPECT_EQ(result.mesh.points.size(), 150U);
+  EXPECT_GT(report_of(result).nodes.self_intersections, 0U);
+  EXPECT_TRUE(says(result.warnings, "Its shrink-wrap was tried"));
+}
+
 TEST(OnScan, AsPublishedOfAPlateIsCalledAnotherBodyFirst) {
   const IndexedMesh plate = test::scaled(test::sphere(4), Vector3(1.0, 1.0, 0.02));
   RemeshOptions published = options_of(300);

@@ -183,11 +183,14 @@ std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
 }
 
 /// Refuses a number of nodes that is too small for a thin or long body, with one that was tried and
-/// is enough. If none is, a remesh whose triangles intersect is not refused.
+/// is enough. If none is, or if the scan `meets_itself`, a remesh whose triangles intersect is not
+/// refused.
 void refuse_too_few(const PreparedGrain& grain, const RemeshOptions& options,
-                    const IndexedMesh& mesh, const Execution& execution) {
+                    const IndexedMesh& mesh, bool meets_itself, const Execution& execution) {
   const std::string reason = too_few(grain, options, mesh, false, execution);
-  if (reason.empty()) return;
+  // More nodes follow a scan that meets itself the more closely. Its shrink-wrap helps (see
+  // remesh).
+  if (reason.empty() || (reason == intersects && meets_itself)) return;
   const auto count = static_cast<int>(mesh.points.size());
   const bool has_stray = grain.input.stray_distance > 0.0;
   const std::string needs =
@@ -217,7 +220,11 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.options.node_count = node_count;
   Nodes nodes = grain.method->place(node_count, execution.part(0.0, 0.9));
   const bool is_few = nodes.mesh.points.size() < few || !(volume_of(nodes.mesh, execution) > 0.0);
-  if (is_few && !searches(options)) refuse_too_few(grain, options, nodes.mesh, execution);
+  const auto* on_scan = std::get_if<OnScanReport>(&nodes.report);
+  const bool meets_itself = on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0;
+  if (is_few && !searches(options)) {
+    refuse_too_few(grain, options, nodes.mesh, meets_itself, execution);
+  }
   result.mesh = std::move(nodes.mesh);
   result.cell_areas = std::move(nodes.cell_areas);
   result.curvatures = std::move(nodes.curvatures);
@@ -229,7 +236,7 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.quality = measure_quality(result.mesh, execution);
   add_distances(grain, result, execution.part(0.92, 0.98));
   if (!is_few && !searches(options) && result.rms_distance > beside) {
-    refuse_too_few(grain, options, result.mesh, execution);
+    refuse_too_few(grain, options, result.mesh, meets_itself, execution);
   }
   result.centre = grain.scan.centre;
   result.input = grain.input;
