@@ -336,9 +336,10 @@ TEST(ScanNodes, TooFewToKeepTrianglesApartNameANumberThatIsEnough) {
   ASSERT_GT(few.report.self_intersections, 0u);
   expect_sound(few, count, 1);
   EXPECT_EQ(few.report.scan_self_intersections, 0u);
-  ASSERT_GT(few.report.enough_nodes, count);
-  ASSERT_LE(few.report.enough_nodes, 3 * count);
-  EXPECT_TRUE(self_intersections(place(ring, few.report.enough_nodes).mesh).empty());
+  const int enough = ScanRemesher(ring, {}, count, Execution(1)).enough_above(count, Execution(1));
+  ASSERT_GT(enough, count);
+  ASSERT_LE(enough, 3 * count);
+  EXPECT_TRUE(self_intersections(place(ring, enough).mesh).empty());
 }
 
 TEST(ScanNodes, AreStoppedInEveryStage) {

@@ -321,9 +321,9 @@ ScanNodes ScanRemesher::place(int node_count, const Execution& execution) const 
   const Execution more = execution.part(1.0, 1.0);
   if (!result) refuse_too_few(node_count, parts_->genus, enough_above(node_count, more));
   ScanNodesReport& report = result->report;
-  if (report.self_intersections == 0) return *std::move(result);
-  report.scan_self_intersections = self_intersections(parts_->scan, more).size();
-  if (report.scan_self_intersections == 0) report.enough_nodes = enough_above(node_count, more);
+  if (report.self_intersections > 0) {
+    report.scan_self_intersections = self_intersections(parts_->scan, more).size();
+  }
   return *std::move(result);
 }
 

@@ -43,10 +43,13 @@ class ScanRemesher {
   /// message says how many were tried and are enough. Error(Cancelled).
   ScanNodes place(int node_count, const Execution& execution) const;
 
+  /// Returns a number of nodes, up to three times `node_count`, with which no triangles intersect;
+  /// 0 if all of the five that are tried leave pairs. Throws Error(Cancelled).
+  int enough_above(int node_count, const Execution& execution) const;
+
  private:
   struct Parts;
   std::optional<ScanNodes> try_to_place(int node_count, const Execution& execution) const;
-  int enough_above(int node_count, const Execution& execution) const;
   ScanNodesOptions options_;
   std::shared_ptr<const Parts> parts_;
 };

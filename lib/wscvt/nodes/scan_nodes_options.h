@@ -44,9 +44,6 @@ struct ScanNodesReport {
   std::size_t repaired_intersections = 0;   ///< intersecting triangle pairs that were separated
   std::size_t self_intersections = 0;       ///< pairs left
   std::size_t scan_self_intersections = 0;  ///< pairs of the scan, counted if any are left
-  /// Larger number of nodes without intersecting pairs, if pairs are left and the scan has none. At
-  /// most three times as many nodes are tried; 0 if all tries leave pairs.
-  int enough_nodes = 0;
 };
 
 }  // namespace wscvt

@@ -30,6 +30,9 @@ class ScanMethod : public RemeshMethod {
              bool with_curvatures, const Execution& execution);
 
   Nodes place(int node_count, const Execution& execution) const override;
+  int enough_above(int node_count, const Execution& execution) const override {
+    return remesher_.enough_above(node_count, execution);
+  }
 
  private:
   const NormalizedScan& scan_;
@@ -52,6 +55,9 @@ class SurfaceMethod : public RemeshMethod {
         on_surface_(options.placement == ScanPlacement::OnSurface) {}
 
   Nodes place(int node_count, const Execution& execution) const override;
+  int enough_above(int node_count, const Execution& execution) const override {
+    return on_scan_.enough_above(node_count, execution);
+  }
 
  private:
   ScanMethod on_scan_;

@@ -220,10 +220,12 @@ RemeshResult remesh_prepared(const PreparedGrain& grain, const RemeshOptions& op
   result.options.node_count = node_count;
   Nodes nodes = grain.method->place(node_count, execution.part(0.0, 0.9));
   const bool is_few = nodes.mesh.points.size() < few || !(volume_of(nodes.mesh, execution) > 0.0);
-  const auto* on_scan = std::get_if<OnScanReport>(&nodes.report);
+  auto* on_scan = std::get_if<OnScanReport>(&nodes.report);
   const bool meets_itself = on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0;
   if (is_few && !searches(options)) {
     refuse_too_few(grain, options, nodes.mesh, meets_itself, execution);
+  } else if (on_scan != nullptr && on_scan->nodes.self_intersections > 0 && !meets_itself) {
+    on_scan->enough_nodes = grain.method->enough_above(node_count, execution.part(0.9, 0.9));
   }
   result.mesh = std::move(nodes.mesh);
   result.cell_areas = std::move(nodes.cell_areas);

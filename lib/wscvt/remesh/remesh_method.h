@@ -30,6 +30,10 @@ class RemeshMethod {
   /// Places `node_count` nodes. Called once, or many times by a search. Throws
   /// Error: InvalidInput, NumericalFailure, Cancelled.
   virtual Nodes place(int node_count, const Execution& execution) const = 0;
+
+  /// Returns a larger number of nodes that was tried and whose triangles do not intersect; 0 if
+  /// none was found, or if the method does not look for one. Throws Error(Cancelled).
+  virtual int enough_above(int /*node_count*/, const Execution& /*execution*/) const { return 0; }
 };
 
 }  // namespace wscvt

@@ -24,6 +24,9 @@ namespace wscvt {
 struct OnScanReport {
   HandleReport handles;  ///< lengths and places of the input
   ScanNodesReport nodes;
+  /// Larger number of nodes without intersecting pairs, if pairs are left and the scan has none; 0
+  /// if none was found.
+  int enough_nodes = 0;
 };
 
 /// Report of the method AsPublished.

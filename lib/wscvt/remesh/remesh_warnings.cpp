@@ -89,9 +89,9 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
                 : Sentence("Repair the scan first.");
   } else {
     text += "Parts of the grain are closer together than " + nodes + " can follow. ";
-    text += report->nodes.enough_nodes > 0 ? "Use " + std::to_string(report->nodes.enough_nodes) +
-                                                 " nodes: with this number no triangles intersect."
-                                           : "Use more nodes.";
+    text += report->enough_nodes > 0 ? "Use " + std::to_string(report->enough_nodes) +
+                                           " nodes: with this number no triangles intersect."
+                                     : "Use more nodes.";
   }
   warnings.push_back(text);
 }
