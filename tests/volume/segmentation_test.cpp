@@ -15,6 +15,7 @@
 #include "grains/packing.h"
 #include "support/expect_error.h"
 #include "support/seeds.h"
+#include "support/test_shapes.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
 #include "toolbox/volume/itk_filters.h"
@@ -1060,6 +1061,89 @@ TEST_F(SegmentationOfAFile, RefusesWhatItCannotDo) {
   options.smallest = 0;
   EXPECT_ERROR(segmented(options), InvalidInput);
   EXPECT_ERROR(check_label_file("labels.tif"), InvalidInput);
+}
+
+/// Voxels that touch by faces and have one label, numbered from 1; void stays 0.
+std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& labels, int size) {
+  std::vector<std::uint32_t> pieces(labels.size(), 0);
+  std::uint32_t count = 0;
+  for (std::size_t first = 0; first < labels.size(); ++first) {
+    if (labels[first] == 0 || pieces[first] != 0) continue;
+    std::vector<std::size_t> next = {first};
+    pieces[first] = ++count;
+    while (!next.empty()) {
+      const std::size_t k = next.back();
+      next.pop_back();
+      std::size_t stride = 1;
+      for (int axis = 0; axis < 3; ++axis, stride *= static_cast<std::size_t>(size)) {
+        const auto place = static_cast<int>(k / stride % static_cast<std::size_t>(size));
+        for (const int step : {-1, 1}) {
+          if (place + step < 0 || place + step == size) continue;
+          const std::size_t other = step < 0 ? k - stride : k + stride;
+          if (pieces[other] != 0 || labels[other] != labels[k]) continue;
+          pieces[other] = count;
+          next.push_back(other);
+        }
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Distances of all voxels to the nearest of label 0, in hundredths of a voxel.
+std::vector<std::uint16_t> distances_of(const std::vector<std::uint32_t>& labels, int size) {
+  std::vector<double> squares(labels.size());
+  for (std::size_t k = 0; k < labels.size(); ++k) squares[k] = labels[k] == 0 ? 0.0 : 1e4;
+  std::size_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis, stride *= static_cast<std::size_t>(size)) {
+    const std::vector<double> before = squares;
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      const auto place = static_cast<int>(k / stride % static_cast<std::size_t>(size));
+      for (int other = 0; other < size; ++other) {
+        const double apart = other - place;
+        const std::size_t there =
+            k - static_cast<std::size_t>(place) * stride + static_cast<std::size_t>(other) * stride;
+        squares[k] = std::min(squares[k], before[there] + apart * apart);
+      }
+    }
+  }
+  std::vector<std::uint16_t> distances;
+  for (const double square : squares) {
+    distances.push_back(static_cast<std::uint16_t>(std::lround(100.0 * std::sqrt(square))));
+  }
+  return distances;
+}
+
+// A ball can be the deepest around voxels that its grain reaches only through another grain.
+TEST(StraightenedWalls, LeaveEachGrainInOnePiece) {
+  constexpr int size = 36;
+  std::mt19937_64 numbers(test::announced(57));
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int packing = 0; packing < 4; ++packing) {
+    SCOPED_TRACE(packing);
+    MadeVolume made({size, size, size});
+    for (std::uint32_t grain = 1; grain <= 14; ++grain) {
+      const Vector3 middle = size * Vector3(unit(numbers), unit(numbers), unit(numbers));
+      const Vector3 axes =
+          Vector3::Constant(2.0) + 7.0 * Vector3(unit(numbers), unit(numbers), unit(numbers));
+      const Eigen::Matrix3d turn = test::random_rotation(numbers());
+      made.fill(grain, [&](const Vector3& p) {
+        return (turn * (p - middle)).cwiseQuotient(axes).norm() < 1.0;
+      });
+    }
+    std::vector<std::uint32_t> labels = pieces_of(made.labels, size);
+    const std::uint32_t before = *std::max_element(labels.begin(), labels.end());
+    straighten_walls(labels, distances_of(labels, size), {size, size, size},
+                     Vector3::Constant(100.0), Execution(1));
+    const std::vector<std::uint32_t> pieces = pieces_of(labels, size);
+    std::map<std::uint32_t, std::uint32_t> piece_of;
+    for (std::size_t k = 0; k < labels.size(); ++k) {
+      EXPECT_EQ(labels[k] == 0, made.labels[k] == 0);
+      if (labels[k] == 0) continue;
+      ASSERT_EQ(piece_of.emplace(labels[k], pieces[k]).first->second, pieces[k]) << labels[k];
+    }
+    EXPECT_LE(piece_of.size(), before);
+  }
 }
 
 TEST_F(SegmentationOfAPacking, IsStopped) {
