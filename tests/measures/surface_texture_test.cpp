@@ -99,6 +99,17 @@ TEST(SurfaceTexture, NamesStepsOfVoxelsAtEachResolutionAndInEachPose) {
   }
 }
 
+// Of some voxels across, few edges bend inward, but all faces have one of a few directions.
+TEST(SurfaceTexture, NamesStepsOfFewVoxels) {
+  for (const Vector3& half_axes : {Vector3(6.5, 4.1, 3.0), Vector3(6.0, 5.0, 2.4)}) {
+    const IndexedMesh mesh = mask_surface(half_axes);
+    SCOPED_TRACE(mesh.triangles.size());
+    EXPECT_EQ(kind_of(mesh), Texture::Steps);
+    EXPECT_EQ(kind_of(turned(mesh)), Texture::Steps);
+    EXPECT_EQ(kind_of(smoothed(mesh, 5)), Texture::None);
+  }
+}
+
 TEST(SurfaceTexture, NamesNoiseAndHowMuchAreaItMakesAtLeast) {
   for (const test::Grain& grain : test::reference_grains()) {
     SCOPED_TRACE(grain.name);
