@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "grains/bent_grain.h"
@@ -195,6 +196,28 @@ TEST(ScanHarmonics, GiveTheBodyAgain) {
   EXPECT_EQ(again.input.genus, 0);
   // The series is an approximation: rms .7 to 2.5 % at degree 20 on such bodies.
   EXPECT_NEAR(again.input.volume / hook.input.volume, 1.0, 0.05);
+}
+
+TEST(ScanHarmonics, OfAMapAreWrittenAsJsonOnly) {
+  RemeshOptions options;
+  options.node_count = 100;
+  EXPECT_NE(test::refusal(ErrorCode::InvalidInput,
+                          [&] {
+                            write_coefficients(::testing::TempDir() + "none.json",
+                                               remesh(body("hook"), options, Execution(1)));
+                          })
+                .find("no coefficients"),
+            std::string::npos);
+  options.measures.series = scan_harmonics;
+  options.degree = 8;
+  const RemeshResult hook = remesh(body("hook"), options, Execution(1));
+  const std::string path = ::testing::TempDir() + "hook.json";
+  write_coefficients(path, hook);
+  EXPECT_EQ(std::get<HarmonicMap>(read_coefficients(path)).coefficients(), hook.coefficients.map);
+  EXPECT_NE(test::refusal(ErrorCode::InvalidInput,
+                          [&] { write_coefficients(::testing::TempDir() + "hook.sh", hook); })
+                .find("Write them to a .json file"),
+            std::string::npos);
 }
 
 TEST(ScanHarmonics, AreOfTheRadiusWhereRaysSeeAll) {
