@@ -234,7 +234,7 @@ TEST_F(MachineRefusals, MemoryIsNeverAGrainsFailure) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers take memory of their own";
 #endif
-  write_scans(3, 4);
+  write_scans(2, 4);
   const Call call = {"batch", "scans", "-o", "out", "-q", "--describe",
                      "none",  "-n",    "60", "-t",  "2"};
   ASSERT_EQ(run("batch scans -o whole -q --describe none -n 60").exit_code, 0);
