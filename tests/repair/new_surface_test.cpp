@@ -189,6 +189,38 @@ TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
   EXPECT_EQ(checked(shrink_wrap_of(drilled, opening(2.0), Execution(1))).genus, 1);
 }
 
+TEST(Envelope, ThatWentInThroughAHoleIsRefusedWithAnOpeningThatClosesIt) {
+  const IndexedMesh ball = test::sphere(3);
+  for (const double width : {0.5, 1.0}) {  // the diagonal is 3.5
+    SCOPED_TRACE(width);
+    IndexedMesh open = ball;
+    open.triangles.clear();
+    for (const Triangle& t : ball.triangles) {
+      const Vector3& corner = ball.points[static_cast<std::size_t>(t[0])];
+      if ((corner - Vector3::UnitZ()).norm() > 0.5 * width) open.triangles.push_back(t);
+    }
+    const std::string sentence = test::refusal(
+        ErrorCode::InvalidInput, [&] { shrink_wrap_of(open, opening(5.0), Execution(1)); });
+    EXPECT_NE(sentence.find("wider than 5 %"), std::string::npos) << sentence;
+    const std::string before = "An opening of ";
+    const std::size_t told = sentence.find(before);
+    ASSERT_NE(told, std::string::npos) << sentence;
+    const double larger = std::stod(sentence.substr(told + before.size()));
+    const IndexedMesh closed = shrink_wrap_of(open, opening(larger), Execution(1));
+    // A shell has some per cent of it. The wrap dips into the hole.
+    EXPECT_NEAR(volume_of(closed, Execution(1)) / volume_of(ball, Execution(1)), 1.0, 0.1);
+  }
+  // A sheet has no inside at any opening.
+  IndexedMesh half = ball;
+  half.triangles.clear();
+  for (const Triangle& t : ball.triangles) {
+    if (ball.points[static_cast<std::size_t>(t[0])].z() > 0.0) half.triangles.push_back(t);
+  }
+  const std::string sentence = test::refusal(
+      ErrorCode::InvalidInput, [&] { shrink_wrap_of(half, opening(5.0), Execution(1)); });
+  EXPECT_NE(sentence.find("Close the hole first"), std::string::npos) << sentence;
+}
+
 TEST(Envelope, StopsWhenAskedTo) {
   // Faces in blocks of 131,072, their tree in parts of 8,192, and once a step of the wrapping.
   const IndexedMesh ball = test::sphere(5);

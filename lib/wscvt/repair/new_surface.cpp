@@ -223,8 +223,54 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
   return oracle;
 }
 
-/// Distance of the wrap from the scan / opening. A smaller distance takes several times as long.
-constexpr double offset_share = 0.1;
+/// Wraps faces, or points without faces, of a scan with a box of diagonal 1.
+Wrap wrap_of(const std::vector<Kernel::Point_3>& points, const std::vector<Triangle>& triangles,
+             double opening_percent, const Execution& execution) {
+  // Distance of the wrap from the scan / opening. A smaller one takes several times as long.
+  constexpr double offset_share = 0.1;
+  const double opening = 0.01 * opening_percent;
+  // CGAL's alpha is the radius of the empty balls that form the outside.
+  const double alpha = 0.5 * opening;
+  const double offset = offset_share * opening;
+  if (triangles.empty()) return alpha_wrap(PointOracle(points), alpha, offset, execution);
+  return alpha_wrap(oracle_of(points, triangles, alpha, execution), alpha, offset, execution);
+}
+
+double area_of(const Kernel::Point_3& a, const Kernel::Point_3& b, const Kernel::Point_3& c) {
+  return 0.5 * std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
+}
+
+/// Whether a wrap follows both sides of a scan's faces, because it went in through a hole: a shell
+/// of nearly no volume. Its area is then 1.9 times theirs, otherwise 1.0 times.
+bool is_shell(const Wrap& wrap, const std::vector<Kernel::Point_3>& points,
+              const std::vector<Triangle>& triangles) {
+  double of_scan = 0.0;
+  for (const auto& [a, b, c] : triangles) of_scan += area_of(points[a], points[b], points[c]);
+  double of_wrap = 0.0;
+  for (const auto face : wrap.faces()) {
+    const auto h = wrap.halfedge(face);
+    of_wrap += area_of(wrap.point(wrap.source(h)), wrap.point(wrap.target(h)),
+                       wrap.point(wrap.target(wrap.next(h))));
+  }
+  return !triangles.empty() && of_wrap > 1.5 * of_scan;
+}
+
+/// Refuses a shell, with a larger opening that was tried and is enough.
+[[noreturn]] void refuse_shell(const std::vector<Kernel::Point_3>& points,
+                               const std::vector<Triangle>& triangles, double opening_percent,
+                               const Execution& execution) {
+  Sentence text = "The shrink-wrap went into the scan through a hole wider than " +
+                  format_percent(0.01 * opening_percent) +
+                  " of the bounding-box diagonal, so it is a shell. ";
+  for (const double times : {2.0, 3.0, 5.0, 10.0, 20.0}) {
+    const double larger = times * opening_percent;
+    if (larger > shrink_wrap_option.maximum) break;
+    if (is_shell(wrap_of(points, triangles, larger, execution), points, triangles)) continue;
+    refuse(text + "An opening of " + format_percent(0.01 * larger) +
+           " was tried and closes it: use " + mention(shrink_wrap_option, larger) + ".");
+  }
+  refuse(text + "Close the hole first, " + where_meshlab_closes() + ".");
+}
 
 }  // namespace
 
@@ -266,13 +312,11 @@ IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
     const Vector3 local = (p - middle) / unit;
     points.emplace_back(local.x(), local.y(), local.z());
   }
-  const double opening = 0.01 * options.opening_percent;
-  // CGAL's alpha is the radius of the empty balls that form the outside.
-  const double alpha = 0.5 * opening;
-  const double offset = offset_share * opening;
-  const Wrap wrap = of_points ? alpha_wrap(PointOracle(points), alpha, offset, execution)
-                              : alpha_wrap(oracle_of(points, scan.triangles, alpha, execution),
-                                           alpha, offset, execution);
+  const double opening = options.opening_percent;
+  const Wrap wrap = wrap_of(points, scan.triangles, opening, execution);
+  if (is_shell(wrap, points, scan.triangles)) {
+    refuse_shell(points, scan.triangles, opening, execution);
+  }
   execution.report(1.0, shrink_wrap_stage);
   IndexedMesh result;
   std::vector<std::int32_t> number(wrap.number_of_vertices() + wrap.number_of_removed_vertices());

@@ -43,9 +43,10 @@ void count_given(std::size_t points, std::size_t faces, std::size_t different,
 /// A scan without faces is wrapped by its points. The opening must then be wider than the gaps
 /// between them. Points inside, such as a scanner's stray points, have no effect.
 ///
-/// Throws Error(InvalidInput) if the opening is out of range or below smallest_opening_percent, or
-/// if the scan's extent is 0 or not between 1e-60 and 1e60. Throws as keep_usable_faces or, for
-/// points, different_points; Error(Cancelled). Uses one thread.
+/// Throws Error(InvalidInput) if the opening is out of range or below smallest_opening_percent, if
+/// the scan's extent is 0 or not between 1e-60 and 1e60, or if the wrap went into the scan through
+/// a hole; the message then says which larger opening was tried and closes it. Throws as
+/// keep_usable_faces or, for points, different_points; Error(Cancelled). Uses one thread.
 IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
                            const Execution& execution);
 
