@@ -66,13 +66,19 @@ void add_crossing_warning(const RepairedScan& repaired, RemeshResult& result) {
   result.warnings.push_back(repaired.crossing_warning);
 }
 
+/// A scan with more faces is not kept as it was given, because the copy would take memory. Then the
+/// repaired scan is wrapped.
+constexpr std::size_t most_kept_faces = 500'000;
+
 /// Returns an opening whose shrink-wrap of a scan has no intersecting triangles if it is remeshed
 /// with these options; 0 if neither tried one has.
 double clean_wrap(const IndexedMesh& scan, RemeshOptions options, int node_count,
                   const Execution& execution) {
   options.node_count = node_count;
   options.target = {};
+  const auto written = options.measures.written;
   options.measures = {};
+  options.measures.written = written;
   for (const double percent : {2.0, usual_opening_percent}) {
     options.shrink_wrap.opening_percent = percent;
     try {
@@ -89,6 +95,10 @@ double clean_wrap(const IndexedMesh& scan, RemeshOptions options, int node_count
 
 RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execution& execution) {
   check_options(options);
+  // The advice must hold for what was given: with the digits of the repaired scan, moved to the
+  // origin, other triangles may intersect.
+  const bool is_kept = scan.triangles.size() <= most_kept_faces;
+  const IndexedMesh given = is_kept ? scan : IndexedMesh();
   RepairedScan repaired = repair_scan(std::move(scan), options, execution.part(0.0, 0.1));
   PreparedGrain grain;
   grain.steep_area_fraction = repaired.steep_area_fraction;
@@ -99,8 +109,8 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   if (on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0 &&
       options.shrink_wrap.opening_percent == 0.0) {
     result.clean_wrap_percent =
-        clean_wrap(grain.scan.mesh, options, static_cast<int>(result.mesh.points.size()),
-                   execution.part(1.0, 1.0));
+        clean_wrap(is_kept ? given : grain.scan.mesh, options,
+                   static_cast<int>(result.mesh.points.size()), execution.part(1.0, 1.0));
   }
   result.warnings = remesh_warnings(result, repaired.precision_warning);
   add_crossing_warning(repaired, result);

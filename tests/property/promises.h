@@ -333,6 +333,22 @@ inline std::string broken_result(const RemeshResult& result, const RemeshOptions
   return broken_report(result);
 }
 
+/// The shrink-wrap that a result recommends has no intersecting triangles, with as many nodes.
+inline std::string broken_advice(const IndexedMesh& scan, RemeshOptions options,
+                                 const RemeshResult& result) {
+  if (result.clean_wrap_percent == 0.0) return "";
+  options.node_count = static_cast<int>(result.mesh.points.size());
+  options.target = {};
+  options.shrink_wrap.opening_percent = result.clean_wrap_percent;
+  try {
+    const RemeshResult wrapped = remesh(scan, options, Execution(1));
+    const std::size_t pairs = on_scan_report(wrapped)->nodes.self_intersections;
+    return pairs == 0 ? "" : "the shrink-wrap that is recommended, with pairs that meet";
+  } catch (const Error& error) {
+    return std::string("the shrink-wrap that is recommended: ") + error.what();
+  }
+}
+
 /// Remeshes and looks at every promise; with `twice` on two and three threads as well.
 inline std::string broken_remesh(const IndexedMesh& scan, const RemeshOptions& options,
                                  bool twice) {
@@ -346,7 +362,8 @@ inline std::string broken_remesh(const IndexedMesh& scan, const RemeshOptions& o
   try {
     const RemeshResult result = remesh(scan, options, execution);
     if (!monotone || last != 1.0) return "the progress";
-    const std::string broken = broken_result(result, options);
+    std::string broken = broken_result(result, options);
+    if (broken.empty()) broken = broken_advice(scan, options, result);
     if (!broken.empty() || !twice) return broken;
     for (const int threads : {2, 3}) {
       const RemeshResult other = remesh(scan, options, Execution(threads));
