@@ -240,19 +240,25 @@ double area_of(const Kernel::Point_3& a, const Kernel::Point_3& b, const Kernel:
   return 0.5 * std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
 }
 
-/// Whether a wrap follows both sides of a scan's faces, because it went in through a hole: a shell
-/// of nearly no volume. Its area is then 1.9 times theirs, otherwise 1.0 times.
+/// Whether a wrap follows both sides of a scan's faces, because it went in through a hole: a shell.
+/// Its area is then 1.9 times theirs, otherwise 1.0 times, and it is a tenth of the opening thick
+/// or less. Faces with gaps between them have less area too, but their wrap is a body.
 bool is_shell(const Wrap& wrap, const std::vector<Kernel::Point_3>& points,
-              const std::vector<Triangle>& triangles) {
+              const std::vector<Triangle>& triangles, double opening_percent) {
   double of_scan = 0.0;
   for (const auto& [a, b, c] : triangles) of_scan += area_of(points[a], points[b], points[c]);
-  double of_wrap = 0.0;
+  double area = 0.0;
+  double volume = 0.0;
   for (const auto face : wrap.faces()) {
     const auto h = wrap.halfedge(face);
-    of_wrap += area_of(wrap.point(wrap.source(h)), wrap.point(wrap.target(h)),
-                       wrap.point(wrap.target(wrap.next(h))));
+    const Kernel::Point_3& a = wrap.point(wrap.source(h));
+    const Kernel::Point_3& b = wrap.point(wrap.target(h));
+    const Kernel::Point_3& c = wrap.point(wrap.target(wrap.next(h)));
+    area += area_of(a, b, c);
+    volume += CGAL::determinant(a - CGAL::ORIGIN, b - CGAL::ORIGIN, c - CGAL::ORIGIN) / 6.0;
   }
-  return !triangles.empty() && of_wrap > 1.5 * of_scan;
+  const double thickness = 2.0 * volume / area;
+  return !triangles.empty() && area > 1.5 * of_scan && thickness < 0.25 * 0.01 * opening_percent;
 }
 
 /// Refuses a shell, with a larger opening that was tried and is enough.
@@ -265,7 +271,8 @@ bool is_shell(const Wrap& wrap, const std::vector<Kernel::Point_3>& points,
   for (const double times : {2.0, 3.0, 5.0, 10.0, 20.0}) {
     const double larger = times * opening_percent;
     if (larger > shrink_wrap_option.maximum) break;
-    if (is_shell(wrap_of(points, triangles, larger, execution), points, triangles)) continue;
+    const Wrap wrap = wrap_of(points, triangles, larger, execution);
+    if (is_shell(wrap, points, triangles, larger)) continue;
     refuse(text + "An opening of " + format_percent(0.01 * larger) +
            " was tried and closes it: use " + mention(shrink_wrap_option, larger) + ".");
   }
@@ -314,7 +321,7 @@ IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
   }
   const double opening = options.opening_percent;
   const Wrap wrap = wrap_of(points, scan.triangles, opening, execution);
-  if (is_shell(wrap, points, scan.triangles)) {
+  if (is_shell(wrap, points, scan.triangles, opening)) {
     refuse_shell(points, scan.triangles, opening, execution);
   }
   execution.report(1.0, shrink_wrap_stage);
