@@ -27,6 +27,7 @@ std::optional<Vector3> voxel_of_resolution(const TiffFile& file) {
   if (unit == RESUNIT_INCH) size *= 2.54;
   return size;
 }
+
 namespace {
 
 /// Whether a resolution is a usual one of screens and printers, in dots per inch, and the distance

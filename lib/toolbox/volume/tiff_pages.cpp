@@ -121,6 +121,7 @@ TiffPage page_of(const TiffFile& file) {
   page.orientation = orientation >= 1 && orientation <= 8 ? orientation : ORIENTATION_TOPLEFT;
   return page;
 }
+
 namespace {
 
 /// What tells slices from previews.
