@@ -1064,7 +1064,8 @@ TEST_F(SegmentationOfAFile, RefusesWhatItCannotDo) {
 }
 
 /// Voxels that touch by faces and have one label, numbered from 1; void stays 0.
-std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& labels, int size) {
+std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& labels,
+                                     const VoxelCounts& counts) {
   std::vector<std::uint32_t> pieces(labels.size(), 0);
   std::uint32_t count = 0;
   for (std::size_t first = 0; first < labels.size(); ++first) {
@@ -1074,44 +1075,14 @@ std::vector<std::uint32_t> pieces_of(const std::vector<std::uint32_t>& labels, i
     while (!next.empty()) {
       const std::size_t k = next.back();
       next.pop_back();
-      std::size_t stride = 1;
-      for (int axis = 0; axis < 3; ++axis, stride *= static_cast<std::size_t>(size)) {
-        const auto place = static_cast<int>(k / stride % static_cast<std::size_t>(size));
-        for (const int step : {-1, 1}) {
-          if (place + step < 0 || place + step == size) continue;
-          const std::size_t other = step < 0 ? k - stride : k + stride;
-          if (pieces[other] != 0 || labels[other] != labels[k]) continue;
-          pieces[other] = count;
-          next.push_back(other);
-        }
-      }
+      for_each_neighbour(k, counts, [&](std::size_t other) {
+        if (pieces[other] != 0 || labels[other] != labels[k]) return;
+        pieces[other] = count;
+        next.push_back(other);
+      });
     }
   }
   return pieces;
-}
-
-/// Distances of all voxels to the nearest of label 0, in hundredths of a voxel.
-std::vector<std::uint16_t> distances_of(const std::vector<std::uint32_t>& labels, int size) {
-  std::vector<double> squares(labels.size());
-  for (std::size_t k = 0; k < labels.size(); ++k) squares[k] = labels[k] == 0 ? 0.0 : 1e4;
-  std::size_t stride = 1;
-  for (int axis = 0; axis < 3; ++axis, stride *= static_cast<std::size_t>(size)) {
-    const std::vector<double> before = squares;
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-      const auto place = static_cast<int>(k / stride % static_cast<std::size_t>(size));
-      for (int other = 0; other < size; ++other) {
-        const double apart = other - place;
-        const std::size_t there =
-            k - static_cast<std::size_t>(place) * stride + static_cast<std::size_t>(other) * stride;
-        squares[k] = std::min(squares[k], before[there] + apart * apart);
-      }
-    }
-  }
-  std::vector<std::uint16_t> distances;
-  for (const double square : squares) {
-    distances.push_back(static_cast<std::uint16_t>(std::lround(100.0 * std::sqrt(square))));
-  }
-  return distances;
 }
 
 // A ball can be the deepest around voxels that its grain reaches only through another grain.
@@ -1131,11 +1102,15 @@ TEST(StraightenedWalls, LeaveEachGrainInOnePiece) {
         return (turn * (p - middle)).cwiseQuotient(axes).norm() < 1.0;
       });
     }
-    std::vector<std::uint32_t> labels = pieces_of(made.labels, size);
+    std::vector<std::uint8_t> mask;
+    for (const std::uint32_t label : made.labels) mask.push_back(label == 0 ? 0 : 1);
+    const VoxelCounts counts = {size, size, size};
+    const Basins basins = basins_of(mask, counts, {1.0, 1.0, 1.0}, 0.5, Execution(1));
+    std::vector<std::uint32_t> labels = pieces_of(made.labels, counts);
     const std::uint32_t before = *std::max_element(labels.begin(), labels.end());
-    straighten_walls(labels, distances_of(labels, size), {size, size, size},
-                     Vector3::Constant(100.0), Execution(1));
-    const std::vector<std::uint32_t> pieces = pieces_of(labels, size);
+    straighten_walls(labels, basins.distances, counts, Vector3::Constant(1.0 / basins.step),
+                     Execution(1));
+    const std::vector<std::uint32_t> pieces = pieces_of(labels, counts);
     std::map<std::uint32_t, std::uint32_t> piece_of;
     for (std::size_t k = 0; k < labels.size(); ++k) {
       EXPECT_EQ(labels[k] == 0, made.labels[k] == 0);
