@@ -97,7 +97,9 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   check_options(options);
   // The advice must hold for what was given: with the digits of the repaired scan, moved to the
   // origin, other triangles may intersect.
-  const bool is_kept = scan.triangles.size() <= most_kept_faces;
+  const bool may_advise = options.shrink_wrap.opening_percent == 0.0 &&
+                          std::get_if<OnScanOptions>(&options.method) != nullptr;
+  const bool is_kept = may_advise && scan.triangles.size() <= most_kept_faces;
   const IndexedMesh given = is_kept ? scan : IndexedMesh();
   RepairedScan repaired = repair_scan(std::move(scan), options, execution.part(0.0, 0.1));
   PreparedGrain grain;
@@ -106,8 +108,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
   prepare(std::move(repaired.checked), options, execution.part(0.1, 0.3), grain);
   RemeshResult result = remesh_to_options(grain, options, execution.part(0.3, 1.0));
   const OnScanReport* on_scan = on_scan_report(result);
-  if (on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0 &&
-      options.shrink_wrap.opening_percent == 0.0) {
+  if (may_advise && on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0) {
     result.clean_wrap_percent =
         clean_wrap(is_kept ? given : grain.scan.mesh, options,
                    static_cast<int>(result.mesh.points.size()), execution.part(1.0, 1.0));

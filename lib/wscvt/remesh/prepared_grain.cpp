@@ -188,8 +188,7 @@ std::string too_few(const PreparedGrain& grain, const RemeshOptions& options,
 void refuse_too_few(const PreparedGrain& grain, const RemeshOptions& options,
                     const IndexedMesh& mesh, bool meets_itself, const Execution& execution) {
   const std::string reason = too_few(grain, options, mesh, false, execution);
-  // More nodes follow a scan that meets itself the more closely. Its shrink-wrap helps (see
-  // remesh).
+  // More nodes follow the sheets that meet more closely. The shrink-wrap helps (see remesh).
   if (reason.empty() || (reason == intersects && meets_itself)) return;
   const auto count = static_cast<int>(mesh.points.size());
   const bool has_stray = grain.input.stray_distance > 0.0;

@@ -67,8 +67,9 @@ struct RemeshResult {
   /// `distances`, or of sampled_distances with 5,000 samples.
   double rms_distance = 0.0;
   double largest_distance = 0.0;
-  /// Opening, in % of the bounding box' diagonal, of a shrink-wrap that was remeshed with these
-  /// options without intersecting triangles, if the scan and the result have such; else 0.
+  /// Opening, in % of the bounding box' diagonal, of a shrink-wrap of the scan as it was given (of
+  /// the repaired scan above 500,000 faces) that was remeshed with these options without
+  /// intersecting triangles, if the scan and the result have such; else 0.
   double clean_wrap_percent = 0.0;
   std::optional<MeshDistances> distances;  ///< between remesh and scan; if asked for
   std::optional<NodeCountSearch> search;   ///< the error of each N tried, %; with an error target
