@@ -17,6 +17,7 @@
 #include "support/file_folder.h"
 #include "support/flat_json.h"
 #include "support/test_shapes.h"
+#include "toolbox/report/sample_report.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
@@ -126,17 +127,25 @@ TEST_F(Remeshes, OfLevelsAreThoseOfTheGrainAlone) {
     }
     EXPECT_FALSE(fs::exists(path(level + "g3.ply")));
   }
-  const std::vector<std::string> lines = write_summaries(job);
+  const std::vector<std::string> lines = write_summaries(job, Execution(1));
   ASSERT_GE(lines.size(), 2U);
   EXPECT_EQ(lines[0].rfind("n40: 3 grains: 2 remeshed, 2 of them with warnings, 1 failed", 0), 0U)
       << lines[0];
   for (const std::string level : {"out/n40/", "out/n60/"}) {
     const SampleSummary alone = summarise_table(path(level + "grains.csv"));
     EXPECT_EQ(content(level + "summary.json"), summary_json(alone));
-    const std::string page = summary_html(alone, [&](const std::string& grain) {
-      return path(level + grain.substr(grain.rfind('/') + 1) + ".ply");
-    });
-    EXPECT_EQ(content(level + "summary.html"), page) << "with its own pictures";
+    // The page is that of the sample, with the remeshes' own pictures.
+    SampleReport report;
+    add_sample(report, "", read_sample(path(level), Execution(1)), {}, 0.0, Execution(1));
+    ASSERT_TRUE(report.samples.front().batch.has_value());
+    for (const GrainDistance& one : report.samples.front().batch->farthest) {
+      EXPECT_EQ(one.file, path(level + one.grain.substr(one.grain.rfind('/') + 1) + ".ply"));
+    }
+    const std::string page = content(level + "summary.html");
+    EXPECT_EQ(page, sample_html(report, Execution(1)));
+    EXPECT_NE(page.find("All remeshes, the farthest from its scan first"), std::string::npos);
+    EXPECT_NE(page.find("id=\"forms\""), std::string::npos);
+    EXPECT_NE(page.find("<td>scans/g3</td>"), std::string::npos);
   }
 }
 
@@ -159,7 +168,7 @@ TEST_F(Remeshes, HaveTheShapeOfTheirScanAtEachLevelAndWhatItsVoxelsDid) {
   EXPECT_NEAR(std::stod(few.at("scan.volume [length^3]")),
               describe_shape(RemeshedScans::mesh(0), Execution(1)).volume, 1e-9);
   EXPECT_EQ(std::stod(few.at("resolution.voxel_size [length]")), 0.6);
-  const std::vector<std::string> lines = write_summaries(job);
+  const std::vector<std::string> lines = write_summaries(job, Execution(1));
   // The voxels resolve fewer than the most nodes, but more than the fewest.
   const double enough = std::stod(few.at("scan.area [length^2]")) / (1.2 * 1.2);
   EXPECT_GT(enough, 31.0);
@@ -201,7 +210,7 @@ TEST_F(Remeshes, CarryTheAttributesOfTheirScans) {
   EXPECT_FALSE(fs::exists(path("out/shape.csv")) || fs::exists(path("out/mass.csv")));
   GrainJob part = job;
   part.shard = {1, 2};
-  EXPECT_TRUE(write_summaries(part).empty());
+  EXPECT_TRUE(write_summaries(part, Execution(1)).empty());
   EXPECT_FALSE(fs::exists(path("out/summary.json")));
   // The labels of a batch are taken; those of extract, which may stand beside it, are written.
   for (const char* state : {"taken", "written"}) {
@@ -212,7 +221,8 @@ TEST_F(Remeshes, CarryTheAttributesOfTheirScans) {
                     ',') +
         "\r\n";
     file("out/labels.csv", census);
-    write_summaries(job);
+    write_summaries(job, Execution(1));
+    EXPECT_EQ(content("out/summary.html").find("id=\"forms\""), std::string::npos);
     EXPECT_EQ(content("out/summary.html").find("1 labels:") != std::string::npos,
               std::string(state) == "taken");
   }

@@ -137,7 +137,7 @@ TEST_F(Batch, SumsUpTheSample) {
   EXPECT_NEAR(summary.at("distributions").at("volume_error").at("maximum").get<double>(), 0.0,
               1e-9);
   const std::string page = content("out/summary.html");
-  for (const char* text : {"A sample of 5 grains", "equivalent radius", "<svg", "Sphericity"}) {
+  for (const char* text : {"A sample of 5 grains", "equivalent radius", "<svg", "sphericity"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
 }

@@ -21,6 +21,7 @@
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
+#include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -425,6 +426,82 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   // 50 descriptors of them fit in 6 MB with a name and a number.
   const double bytes_a_number = (static_cast<double>(page.size()) - 10000.0 * 18.0) / 70000.0;
   EXPECT_LT(bytes_a_number, 11.0);
+}
+
+// What a person reads first is open; of all rows only their number is seen.
+TEST(SampleReport, ALongTableIsFolded) {
+  GrainTable table;
+  for (const char* name : {"volume", "axis_i_box", "convexity", "sphericity_wadell", "genus"}) {
+    table.columns.push_back({name, ""});
+  }
+  for (int k = 0; k < 15; ++k) table.columns.push_back({"other_" + std::to_string(k), ""});
+  const auto columns = static_cast<Eigen::Index>(table.columns.size());
+  table.values.resize(6, columns);
+  for (Eigen::Index row = 0; row < 6; ++row) {
+    table.grains.push_back("g" + std::to_string(row));
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      table.values(row, k) =
+          k == 4
+              ? 0.0
+              : 1.0 + std::abs(std::sin(7.3 * static_cast<double>(row) + static_cast<double>(k)));
+    }
+  }
+  SampleReport report;
+  report.options.repetitions = 50;
+  add_sample(report, "one", {{table}, {}}, {}, 1.0, Execution(1));
+  const auto first_cells = [](const test::Rows& rows) {
+    std::vector<std::string> cells;
+    for (const auto& row : rows) cells.push_back(row.at(0));
+    return cells;
+  };
+  std::string page = sample_html(report, Execution(1));
+  EXPECT_EQ(
+      first_cells(test::table_named(page, "descriptor")),
+      (std::vector<std::string>{"descriptor", "convexity V / V(hull)", "sphericity (Wadell)"}));
+  const test::Rows all = test::table_named(page, "descriptor", 1);
+  EXPECT_EQ(all.size(), 21U);
+  const std::size_t folded = page.find("<details><summary>All 20 rows</summary>");
+  ASSERT_NE(folded, std::string::npos);
+  EXPECT_LT(folded, page.find("<td>other 14</td>"));
+  // A value that all grains share needs no grains.
+  std::vector<std::string> needed;
+  const Document data = data_of(page);
+  for (const Document& row : data.at("needed")) needed.push_back(row.at("name"));
+  EXPECT_EQ(needed.size(), 3U + 19U);
+  EXPECT_EQ(std::count(needed.begin(), needed.end(), "mean of genus"), 0);
+  // With the other sample, the comparison is a long table too.
+  add_sample(report, "two", {{table}, {}}, {}, 1.0, Execution(1));
+  compare_samples(report, Execution(1));
+  page = sample_html(report, Execution(1));
+  EXPECT_EQ(first_cells(test::table_named(page, "descriptor")),
+            (std::vector<std::string>{"descriptor", "size", "convexity V / V(hull)",
+                                      "sphericity (Wadell)"}));
+  EXPECT_EQ(test::table_named(page, "descriptor", 1).size(), 22U);
+}
+
+TEST_F(SampleReportFile, KnowsTheBatchOfItsFolderButNoOtherTable) {
+  file("shape.csv", "grain,file,volume,axis_i_box\r\na,a.ply,1,1\r\nb,b.ply,2,1.25\r\n");
+  for (const bool is_batch : {false, true}) {
+    RemeshResult result;
+    result.rms_distance = 0.5;
+    result.input.equivalent_radius = 1.0;
+    file("grains.csv", is_batch
+                           ? sample_header() + sample_row("b", result) + failed_row("c", "Broken.")
+                           : std::string("grain,status\r\nb,done\r\n"));
+    SampleReport report;
+    report.options.repetitions = 0;
+    add_sample(report, "one", read_sample(path(""), Execution(1)), {}, 1.0, Execution(1));
+    const auto& batch = report.samples.front().batch;
+    ASSERT_EQ(batch.has_value(), is_batch);
+    const std::string page = sample_html(report, Execution(1));
+    EXPECT_EQ(page.find("Broken.") != std::string::npos, is_batch);
+    EXPECT_EQ(page.find("one: 2 grains. Size") != std::string::npos, !is_batch);
+    if (!is_batch) continue;
+    EXPECT_NE(page.find("one: 2 grains: 1 remeshed, 0 of them with warnings, 1 failed."),
+              std::string::npos);
+    ASSERT_EQ(batch->farthest.size(), 1U);
+    EXPECT_EQ(fs::path(batch->farthest[0].file).filename(), "b.ply");
+  }
 }
 
 // 5000 grains of each are in the page, and 50 of those have pictures.

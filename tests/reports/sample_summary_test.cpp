@@ -18,6 +18,7 @@
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
+#include "toolbox/report/sample_report.h"
 #include "toolbox/report/sample_table.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -36,6 +37,14 @@ class SampleSummaryOfAFile : public testing::Test {
 
   std::string path_;
 };
+
+/// The page of a batch whose grains were not described.
+std::string page_of(const SampleSummary& batch) {
+  SampleReport report;
+  report.samples.emplace_back();
+  report.samples.front().batch = batch;
+  return sample_html(report, Execution(1));
+}
 
 RemeshResult grain_of(double radius, const std::vector<Sentence>& warnings = {}) {
   RemeshResult result;
@@ -92,12 +101,12 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   EXPECT_NEAR(radius.at("standard_deviation").get<double>(), std::sqrt(12.5), 1e-12);
   EXPECT_NEAR(json.at("distributions").at("elongation").at("mean").get<double>(), 0.5, 1e-12);
   EXPECT_NEAR(json.at("distributions").at("flatness").at("mean").get<double>(), 0.5, 1e-12);
-  EXPECT_NE(summary_html(summary).find("Broken."), std::string::npos);
+  EXPECT_NE(page_of(summary).find("Broken."), std::string::npos);
   EXPECT_EQ(summary_lines(summary).front(),
             "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
   EXPECT_EQ(summary_lines(summary)[1], "Warnings: warned");
   EXPECT_EQ(json.at("grains_with_warnings"), nlohmann::ordered_json::array({"warned"}));
-  EXPECT_EQ(test::table_named(summary_html(summary), "grain", 1),
+  EXPECT_EQ(test::table_named(page_of(summary), "grain", 1),
             (test::Rows{{"grain", "warnings"}, {"warned", "Odd."}}));
   for (const std::string& line : summary_lines(summary)) EXPECT_LE(line.size(), 80U) << line;
   EXPECT_EQ(summary_lines(summary).size(), 9U);  // with the folder and the seconds 11
@@ -189,7 +198,7 @@ TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
   const SampleSummary summary = summarise_table(path_);
   EXPECT_EQ(summary.failed, most_failures_named + 7);
   EXPECT_EQ(summary.failures.size(), most_failures_named);
-  EXPECT_NE(summary_html(summary).find("And 7 more"), std::string::npos);
+  EXPECT_NE(page_of(summary).find("And 7 more"), std::string::npos);
 }
 
 TEST_F(SampleSummaryOfAFile, CountsTheWarningsThatItDoesNotName) {
@@ -198,7 +207,7 @@ TEST_F(SampleSummaryOfAFile, CountsTheWarningsThatItDoesNotName) {
     table += sample_row("odd", grain_of(1.0, {"Odd."}));
   }
   write(table);
-  EXPECT_NE(summary_html(summarise_table(path_)).find("And 7 more"), std::string::npos);
+  EXPECT_NE(page_of(summarise_table(path_)).find("And 7 more"), std::string::npos);
 }
 
 TEST_F(SampleSummaryOfAFile, OfEquallyFarRemeshesTheFirstIsFirst) {
@@ -221,7 +230,7 @@ TEST_F(SampleSummaryOfAFile, HasTheStatesOfTheLabels) {
   summary.labels = {{"all", 7}, {"written", 5}, {"at the border", 2}};
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   EXPECT_EQ(json.at("labels").at("at the border"), 2);
-  EXPECT_NE(summary_html(summary).find("<p>7 labels: 5 written, 2 at the border.</p>"),
+  EXPECT_NE(page_of(summary).find("<p>7 labels: 5 written, 2 at the border.</p>"),
             std::string::npos);
 }
 
@@ -250,11 +259,11 @@ TEST_F(SampleSummaryOfAFile, ThePageHasTheOptionsOfAllGrains) {
   second.options.node_count = 322;
   write(sample_header() + failed_row("bad", "Broken.") + sample_row("a", first) +
         sample_row("b", first));
-  std::string page = summary_html(summarise_table(path_));
+  std::string page = page_of(summarise_table(path_));
   EXPECT_NE(page.find(", nodes 321,"), std::string::npos);
   EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
   write(sample_header() + sample_row("a", first) + sample_row("b", second));
-  page = summary_html(summarise_table(path_));
+  page = page_of(summarise_table(path_));
   EXPECT_NE(page.find(", nodes several,"), std::string::npos);
   EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
 }
@@ -268,19 +277,18 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
   }
   table += failed_row("folder/bad.ply", "Broken.");
   write(table);
-  const SampleSummary summary = summarise_table(path_);
+  SampleSummary summary = summarise_table(path_);
+  EXPECT_EQ(page_of(summary).find("farthest"), std::string::npos) << "no file is known";
   ASSERT_EQ(summary.farthest.size(), most_grains_shown);
-  for (std::size_t k = 0; k < most_grains_shown; ++k) {
-    EXPECT_NEAR(summary.farthest[k].percent, 0.1 * (150.0 - static_cast<double>(k)), 1e-12);
-  }
   const std::string mesh = path_ + ".ply";
   write_mesh(test::tetrahedron(2.0), mesh);
-  // One of the grains has no file.
-  const std::string page = summary_html(summary, [&](const std::string& grain) {
-    return grain == summary.farthest[1].grain ? path_ + ".none" : mesh;
-  });
+  for (std::size_t k = 0; k < most_grains_shown; ++k) {
+    EXPECT_NEAR(summary.farthest[k].percent, 0.1 * (150.0 - static_cast<double>(k)), 1e-12);
+    summary.farthest[k].file = k == 1 ? path_ + ".none" : mesh;  // one has no file
+  }
+  const std::string page = page_of(summary);
   std::remove(mesh.c_str());
-  EXPECT_NE(page.find("The 99 of 150 remeshes that are farthest"), std::string::npos);
+  EXPECT_NE(page.find("The 13 of 150 remeshes that are farthest"), std::string::npos);
   const auto name = [&](std::size_t k) {
     return summary.farthest[k].grain.substr(7, summary.farthest[k].grain.size() - 11) + "<br>";
   };
@@ -288,7 +296,35 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
   ASSERT_NE(first, std::string::npos);
   EXPECT_EQ(page.find(name(1)), std::string::npos);
   EXPECT_LT(first, page.find(name(2)));
-  EXPECT_EQ(summary_html(summary).find("farthest"), std::string::npos);
+}
+
+TEST_F(SampleSummaryOfAFile, CountsTheKindsOfWarnings) {
+  std::string table = sample_header();
+  for (int k = 0; k < 30; ++k) {
+    const std::string number = std::to_string(k);
+    const std::string name = "g" + number;
+    table += sample_row(
+        name,
+        k == 7 ? grain_of(1.0)
+        : k < 20
+            ? grain_of(1.0, {"It is not accurate: rms distance 1." + number + " %.", "More."})
+            : grain_of(1.0, {number + ".5 of \"" + name + "\" intersect " + number + ". Odd."}));
+  }
+  write(table);
+  const SampleSummary summary = summarise_table(path_);
+  const std::string page = page_of(summary);
+  EXPECT_EQ(test::table_named(page, "warning"),
+            (test::Rows{{"warning", "grains", "first"},
+                        {"It is not accurate", "19", "g0"},
+                        {"N of \"...\" intersect N", "10", "g20"}}));
+  const auto kinds = nlohmann::ordered_json::parse(summary_json(summary)).at("warning_kinds");
+  ASSERT_EQ(kinds.size(), 2U);
+  EXPECT_EQ(kinds[1].at("grains"), 10);
+  EXPECT_EQ(kinds[1].at("first"), "g20");
+  // The grains themselves are folded.
+  EXPECT_NE(page.find("<details><summary>29 grains, each with its warnings</summary>"),
+            std::string::npos);
+  EXPECT_EQ(test::table_named(page, "grain").size(), 30U);
 }
 
 TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
@@ -301,7 +337,7 @@ TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
     table += sample_row("grain", result);
   }
   write(table);
-  const std::string page = summary_html(summarise_table(path_));
+  const std::string page = page_of(summarise_table(path_));
   EXPECT_EQ(page.find("Error of the volume"), std::string::npos);
   EXPECT_NE(page.find("Equivalent radius of 3 grains"), std::string::npos);
 }
@@ -328,7 +364,7 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
   table += failed_row("bad <one>", "Broken & gone.");
   write(table);
   const SampleSummary summary = summarise_table(path_);
-  const std::string page = summary_html(summary);
+  const std::string page = page_of(summary);
   EXPECT_NE(page.find("<h1>A sample of 14 grains</h1>"), std::string::npos);
   EXPECT_NE(page.find("<p>14 grains: 13 remeshed, 0 of them with warnings, 1 failed.</p>"),
             std::string::npos);
@@ -347,13 +383,12 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
       cells.push_back(format_number(value, 4));
     }
     EXPECT_EQ(rows[row], cells);
-    EXPECT_NE(page.find(" of 13 grains, half of them below " +
-                        format_number(plain.quantile(0.5), 4) + "."),
-              std::string::npos)
-        << name;
   };
   expect(1, "equivalent radius, length", radii);
   expect(2, "volume, length^3", 3.0 * radii);
+  EXPECT_NE(page.find(" of 13 grains, half of them below " +
+                      format_number(test::PlainStatistics(radii).quantile(0.5), 4) + "."),
+            std::string::npos);
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   EXPECT_EQ(json.at("grains"), 14);
   EXPECT_EQ(json.at("remeshed"), 13);

@@ -108,7 +108,8 @@ int run(const BatchArguments& arguments) {
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print_made(write_summaries(job), arguments.folder, begin, arguments.quiet);
+  print_made(write_summaries(job, Execution(arguments.threads)), arguments.folder, begin,
+             arguments.quiet);
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

@@ -11,11 +11,12 @@
 #include "toolbox/clump/first_contact.h"
 #include "toolbox/exchange/simulation_files.h"
 #include "toolbox/job/extract_job.h"
-#include "toolbox/report/sample_summary.h"
+#include "toolbox/report/sample_report.h"
 #include "toolbox/report/sample_table.h"
 #include "toolbox/report/shape_table.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/input_file.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
@@ -198,6 +199,28 @@ CensusStates label_states(const GrainJob& job) {
   return states.count("written") > 0 ? CensusStates() : states;
 }
 
+/// Returns the batch of a folder, with the statistics of its scans, or else its remeshes, if at
+/// least two were described.
+SampleReport report_of(const JobFolder& folder, const Execution& execution) {
+  SampleReport report;
+  const std::string shapes = folder.file("shape", ".csv");
+  std::error_code error;
+  if (std::filesystem::exists(shapes, error)) {
+    try {
+      SampleTables sample;
+      sample.tables.push_back(read_grain_table(shapes));
+      sample.files = {shapes};
+      add_sample(report, "", sample, {}, mark_option.minimum, execution);
+    } catch (const Error& refused) {
+      if (refused.code() != ErrorCode::InvalidInput) throw;  // fewer than two grains
+    }
+  }
+  if (report.samples.empty()) report.samples.emplace_back();
+  ReportedSample& one = report.samples.front();
+  if (!one.batch) one.batch = summarise_table(folder.table());
+  return report;
+}
+
 }  // namespace
 
 void check_job(const RemeshJob& job) {
@@ -249,17 +272,17 @@ GrainJob make_job(const RemeshJob& options, const std::string& folder, const Sha
   return job;
 }
 
-std::vector<std::string> write_summaries(const GrainJob& job) {
+std::vector<std::string> write_summaries(const GrainJob& job, const Execution& execution) {
   std::vector<std::string> lines;
   if (job.shard.count > 1) return lines;
   const CensusStates labels = label_states(job);
   for (const JobFolder& folder : folders_of(job)) {
-    SampleSummary summary = summarise_table(folder.table());
+    SampleReport report = report_of(folder, execution);
+    SampleSummary& summary = *report.samples.front().batch;
     summary.labels = labels;
-    for (const char* ending : {".json", ".html"}) {
-      write_summary(folder.file("summary", ending), summary,
-                    [&](const std::string& grain) { return folder.file_of(grain); });
-    }
+    for (GrainDistance& one : summary.farthest) one.file = folder.file_of(one.grain);
+    write_file(folder.file("summary", ".json"), summary_json(summary));
+    write_sample_report(folder.file("summary", ".html"), report, execution);
     std::vector<std::string> told = summary_lines(summary);
     if (!job.levels.empty()) {
       const std::string level = std::filesystem::path(folder.path()).filename().string();

@@ -41,8 +41,8 @@ void check_job(const RemeshJob& job);
 /// centroid and inertia of each scan in that frame and size, at unit density.
 GrainJob make_job(const RemeshJob& options, const std::string& folder, const Shard& shard = {});
 
-/// Writes summary.json and summary.html beside each grains.csv of a job that is done. Returns lines
-/// for a log. Does nothing for a part of a sample.
-std::vector<std::string> write_summaries(const GrainJob& job);
+/// Writes summary.json and summary.html, the page of its sample (see sample_html), beside each
+/// grains.csv of a job that is done. Returns lines for a log. Does nothing for a part of a sample.
+std::vector<std::string> write_summaries(const GrainJob& job, const Execution& execution);
 
 }  // namespace wscvt

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <filesystem>
 #include <numeric>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "toolbox/report/sample_report.h"
+#include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/voxel_resolution.h"
 #include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
 #include "wscvt/report/mesh_view.h"
@@ -30,6 +33,12 @@ namespace {
 constexpr std::size_t most_grains = 10000;
 constexpr std::size_t most_thumbnails = 100;
 constexpr int thumbnail_pixels = 72;
+
+/// A table with more rows is folded.
+constexpr std::size_t most_open_rows = 16;
+
+/// Whether a table shows a column of the sample.
+using ColumnFilter = bool (*)(const std::string& column);
 
 constexpr const char* page_style =
     "<style>select, input { font: inherit; } input { width: 5em; } figcaption button { "
@@ -102,13 +111,14 @@ std::string in_page(const Json& json) {
   return result;
 }
 
-/// Returns a picture as a data URL; empty if the mesh cannot be read.
-std::string thumbnail(const std::string& file, const Execution& execution) {
+/// Returns a picture of a mesh, nothing if it cannot be read.
+std::optional<Picture> thumbnail(const std::string& file, const Execution& execution) {
+  execution.report(0.0, "Drawing the grains");
   try {
-    return data_url(thumbnail_of(read_mesh(file, execution), thumbnail_pixels));
+    return thumbnail_of(read_mesh(file, execution), thumbnail_pixels);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::Cancelled) throw;
-    return "";
+    return {};
   }
 }
 
@@ -119,11 +129,11 @@ std::string thumbnails(const ReportedSample& one, const std::vector<std::size_t>
     const std::vector<std::size_t> shown = evenly_by_size(one.sample, rows, most);
     for (std::size_t place = 0; place < rows.size(); ++place) {
       if (!std::binary_search(shown.begin(), shown.end(), rows[place])) continue;
-      execution.report(0.0, "Drawing the grains");
       const auto file = std::filesystem::path(one.folder) / one.sample.files[rows[place]];
-      const std::string picture = thumbnail(file.string(), execution);
-      if (picture.empty()) continue;
-      text += (text.size() > 1 ? ",\"" : "\"") + std::to_string(place) + "\":\"" + picture + "\"";
+      const auto picture = thumbnail(file.string(), execution);
+      if (!picture) continue;
+      text += (text.size() > 1 ? ",\"" : "\"") + std::to_string(place) + "\":\"" +
+              data_url(*picture) + "\"";
     }
   }
   return text + "}";
@@ -178,6 +188,7 @@ std::string sample_data(const ReportedSample& one, std::size_t samples,
 Json needed_of(const SampleStatistics& s) {
   Json list = Json::array();
   const auto add = [&](const std::string& name, const Estimate& e) {
+    if (e.lower == e.upper) return;  // the same of all grains
     list.push_back({{"name", name}, {"value", e.value}, {"lower", e.lower}, {"upper", e.upper}});
   };
   add("D10 by mass", s.size_by_mass.d10);
@@ -244,12 +255,13 @@ std::vector<std::vector<std::string>> size_table(const SampleReport& report) {
   return rows;
 }
 
-std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one) {
+std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one,
+                                                       ColumnFilter is_shown) {
   std::vector<std::vector<std::string>> rows = {{"descriptor", "grains", "mean by number",
                                                  "std. dev. (n - 1)", "10 %", "median", "90 %",
                                                  "mean by mass", "correlation with size"}};
   for (const ColumnStatistics& c : one.statistics.columns) {
-    if (c.count == 0) continue;
+    if (c.count == 0 || !is_shown(c.column.name)) continue;
     const auto value = [](const Estimate& e) { return format_number(e.value, 4); };
     rows.push_back(
         {heading_in_words(c.column), std::to_string(c.count), with_interval(c.by_number.mean),
@@ -259,11 +271,13 @@ std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one
   return rows;
 }
 
-std::vector<std::vector<std::string>> comparison_table(const SampleReport& report) {
+std::vector<std::vector<std::string>> comparison_table(const SampleReport& report,
+                                                       ColumnFilter is_shown) {
   std::vector<std::vector<std::string>> rows = {{"descriptor", "K-S by number", "p",
                                                  "Wasserstein / deviation", "p", "K-S by mass", "p",
                                                  "Wasserstein / deviation", "p"}};
   for (const ColumnComparison& row : report.comparison) {
+    if (row.column.name != "size" && !is_shown(row.column.name)) continue;
     std::vector<std::string> cells = {heading_in_words(row.column)};
     for (const SampleDistance& d : {row.by_number, row.by_mass}) {
       for (const double value :
@@ -276,16 +290,31 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
   return rows;
 }
 
+/// Adds a table; if it is long, what a person reads first, and all of it folded. `table_of` returns
+/// the rows of the columns that it is given a function for.
+template <class TableOf>
+void add_long_table(HtmlDocument& page, const TableOf& table_of) {
+  const auto rows = table_of([](const std::string&) { return true; });
+  if (rows.size() <= most_open_rows) {
+    page.add_rows(rows);
+    return;
+  }
+  page.add_rows(table_of(is_first_read));
+  page.add_folded_rows("All " + std::to_string(rows.size() - 1) + " rows", rows);
+}
+
 /// An error this small is rounding.
 std::string shown_error(double percent) {
   return percent < 1e-9 ? "exact" : format_number(percent, 3);
 }
 
-std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels) {
+std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels,
+                                                   ColumnFilter is_shown) {
   std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors"}};
   for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
   rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
   for (const DescriptorLevels& row : levels.rows) {
+    if (!is_shown(row.name)) continue;
     std::vector<std::string> cells = {words_of(row.name)};
     for (const LevelError& error : row.levels) {
       cells.push_back(error.count == 0
@@ -315,18 +344,33 @@ void add_place(HtmlDocument& page, const std::string& id) {
                 "\"></div>\n");
 }
 
+/// "One, the first" of `name`; nothing to tell apart of a single sample.
+std::string of_sample(const SampleReport& report, const ReportedSample& one) {
+  return report.samples.size() > 1 ? " of " + one.name : "";
+}
+
 void add_introduction(HtmlDocument& page, const SampleReport& report) {
-  page.add_paragraph(origin_sentence({}));
+  page.add_html("<p>" + html_escaped(origin_sentence({})) + "<span id=\"date\"></span></p>\n");
   for (const ReportedSample& one : report.samples) {
     const std::size_t count = one.sample.grains.size();
-    std::string text = one.name + ": " + std::to_string(count) + " grains";
-    if (one.sample.failed > 0) text += ", " + std::to_string(one.sample.failed) + " failed";
-    text += ". Size: " + one.sample.size_name + ".";
+    std::string text = one.name + (one.name.empty() ? "" : ": ");
+    if (one.batch) {
+      text += count_line(*one.batch);
+    } else {
+      text += std::to_string(count) + " grains";
+      if (one.sample.failed > 0) text += ", " + std::to_string(one.sample.failed) + " failed";
+    }
+    text += ".";
+    if (count > 0) text += " Size: " + one.sample.size_name + ".";
     if (count > most_grains / report.samples.size()) {
       text += " Figures show " + std::to_string(most_grains / report.samples.size()) +
               " of the grains, chosen evenly by size. Tables use all grains.";
     }
     page.add_paragraph(text);
+    if (one.batch && !one.batch->labels.empty()) {
+      page.add_paragraph(census_line(one.batch->labels, "labels") + ".");
+    }
+    if (one.batch && !one.batch->options.empty()) page.add_paragraph(options_line(*one.batch));
     for (const std::string& note : one.sample.notes) page.add_warning(note);
   }
   const int repetitions = report.samples.front().statistics.repetitions;
@@ -337,15 +381,86 @@ void add_introduction(HtmlDocument& page, const SampleReport& report) {
   }
 }
 
-}  // namespace
+/// Adds the kinds of warnings if they are fewer than the grains.
+void add_kinds(HtmlDocument& page, const SampleSummary& batch) {
+  if (batch.warning_kinds.size() >= batch.with_warnings) return;
+  std::vector<std::vector<std::string>> rows = {{"warning", "grains", "first"}};
+  for (const WarningKind& one : batch.warning_kinds) {
+    rows.push_back({one.kind, std::to_string(one.grains), one.first});
+  }
+  page.add_rows(rows);
+}
 
-std::string sample_html(const SampleReport& report, const Execution& execution) {
-  std::string title = "Sample " + report.samples.front().name;
-  if (report.samples.size() > 1)
-    title = "Samples " + report.samples.front().name + " and " + report.samples.back().name;
-  HtmlDocument page(title);
-  page.add_html(page_style);
-  add_introduction(page, report);
+void add_messages(HtmlDocument& page, const char* column, const std::vector<GrainMessage>& messages,
+                  std::size_t count) {
+  if (count == 0) return;
+  std::vector<std::vector<std::string>> rows = {{"grain", column}};
+  for (const auto& [grain, message] : messages) rows.push_back({grain, message});
+  if (rows.size() <= most_open_rows) {
+    page.add_rows(rows, RowKind::Typed);
+  } else {
+    page.add_folded_rows(std::to_string(messages.size()) + " grains, each with its " + column, rows,
+                         RowKind::Typed);
+  }
+  if (count > messages.size()) {
+    page.add_paragraph("And " + std::to_string(count - messages.size()) + " more. See the table.");
+  }
+}
+
+/// Adds a row of pictures of the remeshes that are farthest from their scans.
+void add_farthest(HtmlDocument& page, const SampleSummary& batch, const Execution& execution) {
+  std::string pictures;
+  std::size_t count = 0;
+  for (const GrainDistance& one : batch.farthest) {
+    const auto picture = one.file.empty() ? std::nullopt : thumbnail(one.file, execution);
+    if (!picture) continue;
+    ++count;
+    const std::string name = std::filesystem::path(one.grain).stem().string();
+    pictures += "<figure>" + image_element(*picture, name) + "<figcaption>" + html_escaped(name) +
+                "<br>" + format_number(one.percent, 3) + " %</figcaption></figure>\n";
+  }
+  if (count == 0) return;
+  const std::size_t made = batch.grains - batch.failed;
+  page.add_paragraph((count < made
+                          ? "The " + std::to_string(count) + " of " + std::to_string(made) +
+                                " remeshes that are farthest from their scans"
+                          : "All remeshes, the farthest from its scan first") +
+                     ", with the rms distance in % of the equivalent radius.");
+  page.add_html("<div class=\"thumbs\">\n" + pictures + "</div>\n");
+}
+
+/// Adds histograms of the size and of what the remesh changed, but not of rounding.
+void add_histograms(HtmlDocument& page, const SampleSummary& batch) {
+  std::vector<Figure> figures;
+  for (const SampleDistribution& one : batch.distributions) {
+    if (one.values.empty() || !one.in_log || !is_spread(one)) continue;
+    const std::string axis = one.unit.empty() ? one.label : one.label + ", " + one.unit;
+    figures.push_back(
+        {histogram_figure(axis, "grains", {{"", "#0a58b4", histogram_of(one.values)}}),
+         capitalised(one.label) + " of " + std::to_string(one.values.size()) +
+             " grains, half of them below " + format_number(quantile(one.values, 0.5), 4) + "."});
+  }
+  page.add_figures(figures);
+}
+
+void add_batches(HtmlDocument& page, const SampleReport& report, const Execution& execution) {
+  for (const ReportedSample& one : report.samples) {
+    if (!one.batch) continue;
+    const SampleSummary& batch = *one.batch;
+    const std::string of = of_sample(report, one);
+    if (batch.failed > 0) page.add_heading("Failures" + of);
+    add_messages(page, "error", batch.failures, batch.failed);
+    if (batch.with_warnings > 0) page.add_heading("Warnings" + of);
+    add_kinds(page, batch);
+    add_messages(page, "warnings", batch.warned, batch.with_warnings);
+    page.add_heading("Remeshes" + of);
+    add_farthest(page, batch, execution);
+    page.add_rows(quantity_table(batch));
+    add_histograms(page, batch);
+  }
+}
+
+void add_statistics(HtmlDocument& page, const SampleReport& report) {
   page.add_heading("Size");
   page.add_rows(size_table(report));
   add_place(page, "curves");
@@ -358,52 +473,78 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
         "of "
         "random partitions of all grains that are as far apart. If p < 0.05, the samples differ by "
         "more than chance.");
-    page.add_rows(comparison_table(report));
+    add_long_table(page, [&](ColumnFilter is_shown) { return comparison_table(report, is_shown); });
   }
   page.add_heading("Form");
   add_place(page, "forms");
   page.add_heading("Descriptors");
   add_place(page, "distributions");
-  if (std::any_of(report.samples.begin(), report.samples.end(),
-                  [](const ReportedSample& one) { return !one.trends.empty(); })) {
-    page.add_heading("Voxels");
-    page.add_paragraph(
-        "Few voxels across a grain hide its edges and its roughness, so that a trend with size may "
-        "be a trend of the voxels. It is one of the grains if it stays when the values are "
-        "corrected, and when the grains with few voxels are left out.");
-    add_place(page, "voxels");
-    for (const ReportedSample& one : report.samples) {
-      if (report.samples.size() > 1) page.add_paragraph(one.name + ":");
-      if (!one.trends.empty()) page.add_rows(trends_table(one));
-    }
-  }
-  if (report.levels) {
-    page.add_heading("Errors of the remeshes against the number of nodes");
-    page.add_paragraph(
-        "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
-        "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
-        "contact, minus the distance of two scans, over random pairs of poses. The table has its "
-        "mean and its standard deviation over the pairs (scatter), the distance of the places of "
-        "contact, and the angle of the contacts' normals in degrees.");
-    add_place(page, "levels");
-    page.add_rows(levels_table(*report.levels));
-  }
-  page.add_heading("Number of grains needed");
-  page.add_html(
-      "<p><label>Wanted 95 % interval: value &plusmn; <input id=\"wanted\" type=\"number\" "
-      "value=\"2\" min=\"0.01\" step=\"any\"> %</label></p>\n<div class=\"wide\"><table><thead><tr>"
-      "<th>statistic</th><th>value</th><th>interval now, &plusmn; %</th><th>grains needed</th></tr>"
-      "</thead><tbody id=\"needed\"></tbody></table></div>\n");
-  page.add_heading("Grains");
-  page.add_html("<p id=\"thumb-choice\"></p>\n<div class=\"thumbs\" id=\"thumbs\"></div>\n");
-  page.add_heading("All descriptors");
   for (const ReportedSample& one : report.samples) {
     if (report.samples.size() > 1) page.add_paragraph(one.name + ":");
-    page.add_rows(statistics_table(one));
+    add_long_table(page, [&](ColumnFilter is_shown) { return statistics_table(one, is_shown); });
   }
   page.add_paragraph(
       "Correlation: rank correlation (Spearman). Reports as .csv or .json have intervals for all "
       "columns.");
+}
+
+void add_voxels(HtmlDocument& page, const SampleReport& report) {
+  if (std::all_of(report.samples.begin(), report.samples.end(),
+                  [](const ReportedSample& one) { return one.trends.empty(); })) {
+    return;
+  }
+  page.add_heading("Voxels");
+  page.add_paragraph(
+      "Few voxels across a grain hide its edges and its roughness, so that a trend with size may "
+      "be a trend of the voxels. It is one of the grains if it stays when the values are "
+      "corrected, and when the grains with few voxels are left out.");
+  add_place(page, "voxels");
+  for (const ReportedSample& one : report.samples) {
+    if (report.samples.size() > 1) page.add_paragraph(one.name + ":");
+    if (!one.trends.empty()) page.add_rows(trends_table(one));
+  }
+}
+
+void add_levels(HtmlDocument& page, const DetailLevels& levels) {
+  page.add_heading("Errors of the remeshes against the number of nodes");
+  page.add_paragraph(
+      "Distances and contact errors are in % of the equivalent radius, errors of descriptors in "
+      "% of the scan's value, all without sign. Contact error: distance of two remeshes at first "
+      "contact, minus the distance of two scans, over random pairs of poses. The table has its "
+      "mean and its standard deviation over the pairs (scatter), the distance of the places of "
+      "contact, and the angle of the contacts' normals in degrees.");
+  add_place(page, "levels");
+  add_long_table(page, [&](ColumnFilter is_shown) { return levels_table(levels, is_shown); });
+}
+
+}  // namespace
+
+std::string sample_html(const SampleReport& report, const Execution& execution) {
+  const ReportedSample& first = report.samples.front();
+  std::string title = "Sample " + first.name;
+  if (report.samples.size() > 1) {
+    title = "Samples " + first.name + " and " + report.samples.back().name;
+  } else if (first.name.empty()) {
+    const std::size_t count = first.batch ? first.batch->grains : first.sample.grains.size();
+    title = "A sample of " + std::to_string(count) + (count == 1 ? " grain" : " grains");
+  }
+  HtmlDocument page(title);
+  page.add_html(page_style);
+  add_introduction(page, report);
+  add_batches(page, report, execution);
+  if (first.sample.grains.empty()) return page.text();
+  add_statistics(page, report);
+  add_voxels(page, report);
+  if (report.levels) add_levels(page, *report.levels);
+  page.add_heading("Grains");
+  page.add_html("<p id=\"thumb-choice\"></p>\n<div class=\"thumbs\" id=\"thumbs\"></div>\n");
+  page.add_heading("Number of grains needed");
+  page.add_html(
+      "<p><label>Wanted 95 % interval: value &plusmn; <input id=\"wanted\" type=\"number\" "
+      "value=\"2\" min=\"0.01\" step=\"any\"> %</label></p>\n<details><summary>Grains needed for "
+      "each statistic</summary>\n<div class=\"wide\"><table><thead><tr><th>statistic</th>"
+      "<th>value</th><th>interval now, &plusmn; %</th><th>grains needed</th></tr></thead>"
+      "<tbody id=\"needed\"></tbody></table></div></details>\n");
   page.add_html("<script type=\"application/json\" id=\"data\">" + data_of(report, execution) +
                 "</script>\n<script>" + sample_page_script + "</script>\n");
   return page.text();

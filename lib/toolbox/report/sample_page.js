@@ -2,6 +2,10 @@
 // Draws the figures of a sample's HTML report from the JSON in its element "data". Loads no other files.
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
+// A single sample is named by the page.
+const nameOf = sample => data.samples.length > 1 ? sample.name : "";
+const headed = (sample, caption) => data.samples.length > 1 ? sample.name + ": " + caption :
+    caption[0].toUpperCase() + caption.slice(1);
 const colours = ["#0a58b4", "#c2570c"];
 const width = 460, height = 330, left = 62, right = 14, top_ = 14, bottom = 48;
 const escaped = text => String(text).replace(/[&<>"]/g, c => "&#" + c.charCodeAt(0) + ";");
@@ -79,7 +83,7 @@ function path(points, colour, more) {
       `fill="none" stroke="${colour}" stroke-width="1.8" ${more || ""}/>`;
 }
 function names(drawnSamples) {
-  return drawnSamples.map((sample, k) => text(left + 8, top_ + 14 + 15 * k, sample.name,
+  return drawnSamples.map((sample, k) => text(left + 8, top_ + 14 + 15 * k, nameOf(sample),
       `fill="${colours[k]}"`)).join("");
 }
 
@@ -437,10 +441,10 @@ let formWeighting = "number";
 const forms = [];
 data.samples.forEach(sample => {
   if (!axesOf(sample)) return;
-  forms.push(figure("forms", "zingg", sample.name + ": form after Zingg (1935), darker: more.",
+  forms.push(figure("forms", "zingg", headed(sample, "form after Zingg (1935), darker: more."),
                     () => zingg(sample, formWeighting)));
   forms.push(figure("forms", "sneed_folk",
-                    sample.name + ": form after Sneed and Folk (1958), darker: more.",
+                    headed(sample, "form after Sneed and Folk (1958), darker: more."),
                     () => sneedFolk(sample, formWeighting)));
 });
 if (forms.length > 0) {
@@ -468,8 +472,8 @@ const scanned = data.samples.filter(sample => sample.resolved.length > 0);
 if (scanned.length > 0) {
   const names_ = scanned[0].resolved;
   let shownVoxels = names_.includes(first) ? first : names_[0];
-  const caption = ": against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
-  const redraws = scanned.map(sample => figure("voxels", "voxels_across", sample.name + caption,
+  const caption = "against the voxels across. Ring: raw. Dot: corrected. Green: can be trusted.";
+  const redraws = scanned.map(sample => figure("voxels", "voxels_across", headed(sample, caption),
                                                () => againstVoxels(sample, shownVoxels)));
   choice("voxels-choice", "Descriptor", names_.map(name => [name, wordsOf(name)]), shownVoxels, value => {
     shownVoxels = value;
@@ -547,3 +551,13 @@ if (thumbs.length > 0) {
   });
   show();
 }
+
+// The day of the file. Who serves it without a date would show today's.
+const written = new Date(document.lastModified);
+if (Date.now() - written > 10000) {
+  const two = number => String(number).padStart(2, "0");
+  document.getElementById("date").textContent = " File of " + written.getFullYear() + "-" +
+      two(written.getMonth() + 1) + "-" + two(written.getDate()) + ".";
+}
+// In print, all is seen.
+window.onbeforeprint = () => document.querySelectorAll("details").forEach(one => one.open = true);

@@ -33,11 +33,6 @@ bool is_main_level(const std::string& name) {
   return is_main(name) || name == "rms_distance" || name.rfind("contact_", 0) == 0;
 }
 
-/// Columns that a person reads first.
-bool is_first_read(const std::string& name) {
-  return is_read_first(name) || name == "rms_distance" || name == "contact_error_mean";
-}
-
 using Rows = std::vector<std::vector<std::string>>;
 using IsShown = std::function<bool(const std::string&)>;
 
@@ -242,7 +237,25 @@ void append_levels(const std::string& sample, const DetailLevels& levels, std::s
   }
 }
 
+/// Returns the summary of the batch that wrote a table of shapes; nothing if another program did.
+std::optional<SampleSummary> batch_of(const std::string& folder, const GrainTable& shapes) {
+  const std::string path = (std::filesystem::path(folder) / "grains.csv").string();
+  if (!is_batch_table(path)) return {};
+  SampleSummary batch = summarise_table(path);
+  for (GrainDistance& one : batch.farthest) {
+    const auto found = std::find(shapes.grains.begin(), shapes.grains.end(), one.grain);
+    if (found == shapes.grains.end() || shapes.files.empty()) continue;
+    const auto place = static_cast<std::size_t>(found - shapes.grains.begin());
+    one.file = (std::filesystem::path(folder) / shapes.files[place]).string();
+  }
+  return batch;
+}
+
 }  // namespace
+
+bool is_first_read(const std::string& name) {
+  return is_read_first(name) || name == "rms_distance" || name == "contact_error_mean";
+}
 
 std::string size_name(const GrainSample& sample) {
   const std::string name = sample.size_name.substr(0, sample.size_name.find(':'));
@@ -270,6 +283,7 @@ void add_sample(SampleReport& report, const std::string& name, const SampleTable
   if (!sample.files.empty()) {
     one.folder = std::filesystem::path(sample.files[shown]).parent_path().string();
     if (one.folder.empty()) one.folder = ".";
+    one.batch = batch_of(one.folder, sample.tables[shown]);
   }
   one.sample = sample_of(sample.tables[shown], options);
   one.statistics = measure_sample(one.sample, options, execution);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "toolbox/report/sample_summary.h"
 #include "toolbox/sample/detail_levels.h"
 #include "toolbox/sample/sample_comparison.h"
 #include "toolbox/sample/sample_files.h"
@@ -15,9 +16,11 @@ namespace wscvt {
 
 /// A sample with its name and statistics.
 struct ReportedSample {
-  std::string name;
+  std::string name;    ///< empty: the only sample, whose name is not told
   std::string folder;  ///< of the grains' mesh files; empty: no thumbnails
-  GrainSample sample;
+  /// Of the batch that measured the grains, for a page: its failures, warnings and options.
+  std::optional<SampleSummary> batch;
+  GrainSample sample;  ///< a page may be of a batch alone: then without grains
   SampleStatistics statistics;
   std::vector<VoxelTrend> trends;  ///< empty if the size of the voxels is not known
 };
@@ -32,7 +35,8 @@ struct SampleReport {
 
 /// Measures a sample with the report's options and adds it. If a sample has several tables, the
 /// finest is shown (see finest_table). The tables of the first sample give the levels.
-/// `mark_percent`: see measure_levels. `densities`: one for all samples, one per sample, or empty
+/// The batch is that of the folder of the table that is shown, if it has one. `mark_percent`: see
+/// measure_levels. `densities`: one for all samples, one per sample, or empty
 /// (see SampleOptions::density). Throws the errors of sample_of, measure_sample and measure_levels.
 void add_sample(SampleReport& report, const std::string& name, const SampleTables& sample,
                 const std::vector<double>& densities, double mark_percent,
@@ -50,6 +54,9 @@ std::vector<std::string> sample_lines(const SampleReport& report);
 /// table: the comparison, else the levels, else the descriptors. At most 11 lines without notes.
 std::vector<std::string> summary_lines(const SampleReport& report);
 
+/// Whether a person reads this column first.
+bool is_first_read(const std::string& name);
+
 /// "4.1 (3.9 to 4.4)".
 std::string with_interval(const Estimate& estimate);
 
@@ -65,11 +72,12 @@ std::string sample_json(const SampleReport& report);
 /// the correlations with size of the resolved, the corrected and the trusted values (VoxelTrend).
 std::string sample_csv(const SampleReport& report);
 
-/// Returns an HTML report for reading and printing, one file without references to other files:
-/// size curve, diagrams of form, histograms, thumbnails, the number of grains that an interval
-/// needs. The reader chooses the descriptor, and saves each figure as SVG and its data as CSV. The
-/// report contains the numbers of at most 10,000 grains of a sample and pictures of at most 100,
-/// chosen evenly by size.
+/// Returns an HTML report for reading and printing, one file without references to other files. Of
+/// a batch: failures, warnings and options, the remeshes that are farthest from their scans, and
+/// what the remeshes changed. Of a sample: size curve, diagrams of form, histograms, thumbnails,
+/// the number of grains that an interval needs. The reader chooses the descriptor, and saves each
+/// figure as SVG and its data as CSV. The report contains the numbers of at most 10,000 grains of a
+/// sample and pictures of at most 100, chosen evenly by size. Long tables are folded.
 std::string sample_html(const SampleReport& report, const Execution& execution);
 
 /// Writes the report in the format of the file's name: .html, .json or .csv. Throws the errors of

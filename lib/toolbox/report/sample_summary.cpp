@@ -4,31 +4,24 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <optional>
 #include <string_view>
 
+#include "toolbox/report/sample_table.h"
 #include "toolbox/sample/csv_reader.h"
 #include "toolbox/sample/distribution.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/input_file.h"
-#include "wscvt/base/option.h"
-#include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/mesh_files/mesh_io.h"
-#include "wscvt/report/figures.h"
-#include "wscvt/report/html_document.h"
 #include "wscvt/report/json.h"
-#include "wscvt/report/mesh_view.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
 
 namespace {
-
-constexpr const char* colour = "#0a58b4";
 
 /// A number of a grain: a column of the table, or the quotient of two.
 struct Source {
@@ -37,7 +30,7 @@ struct Source {
   const char* unit;
   const char* column;
   const char* divisor;  ///< null: none
-  /// A log shows what the remesh changed, and leaves the scans' shape to the page.
+  /// The scans' shape has a page's own figures.
   bool in_log = true;
 };
 constexpr Source sources[] = {
@@ -88,32 +81,6 @@ std::string shown(const SampleDistribution& one, double value, int digits) {
   return is_rounding ? "exact" : format_number(value, digits);
 }
 
-bool is_in_log(const SampleDistribution& one) {
-  return std::any_of(std::begin(sources), std::end(sources),
-                     [&](const Source& source) { return source.in_log && source.key == one.key; });
-}
-
-std::vector<std::vector<std::string>> table_of(const SampleSummary& summary) {
-  std::vector<std::vector<std::string>> rows = {
-      {"Quantity", "mean", "std. dev. (n - 1)", "smallest", "10 %", "50 %", "90 %", "largest"}};
-  for (const SampleDistribution& one : summary.distributions) {
-    if (one.values.empty()) continue;
-    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 4),
-                    shown(one, deviation_of(one.values), 4), shown(one, first_of(one.values), 4),
-                    shown(one, quantile(one.values, 0.1), 4),
-                    shown(one, quantile(one.values, 0.5), 4),
-                    shown(one, quantile(one.values, 0.9), 4), shown(one, last_of(one.values), 4)});
-  }
-  return rows;
-}
-
-std::string count_line(const SampleSummary& summary) {
-  return std::to_string(summary.grains) + (summary.grains == 1 ? " grain: " : " grains: ") +
-         std::to_string(summary.grains - summary.failed) + " remeshed, " +
-         std::to_string(summary.with_warnings) + " of them with warnings, " +
-         std::to_string(summary.failed) + " failed";
-}
-
 /// Returns "Warnings: a.ply, b.ply and 7 more", at most 80 characters unless one name is longer.
 /// The table has the warnings themselves. Empty without warnings.
 std::string warned_line(const SampleSummary& summary) {
@@ -130,6 +97,39 @@ std::string warned_line(const SampleSummary& summary) {
   }
   if (named == summary.with_warnings) return line;
   return line + " and " + std::to_string(summary.with_warnings - named) + " more";
+}
+
+/// Returns what the warnings of one kind have in common: the begin of the first one's text up to a
+/// colon or its end, with "N" for numbers and "..." for what is quoted.
+std::string kind_of(const std::string& warnings) {
+  std::string kind;
+  std::size_t k = 0;
+  while (k < warnings.size() && warnings[k] != ':' && warnings[k] != '.') {
+    if (warnings[k] == '"') {
+      kind += "\"...\"";
+      k = std::min(warnings.find('"', k + 1), warnings.size() - 1) + 1;
+    } else if (warnings[k] >= '0' && warnings[k] <= '9') {
+      kind += 'N';
+      k = std::min(warnings.find_first_not_of("0123456789.", k), warnings.size());
+      if (warnings[k - 1] == '.') break;  // of the sentence
+    } else {
+      kind += warnings[k++];
+    }
+  }
+  return kind;
+}
+
+/// Counts a grain's warning with those of its kind.
+void count_kind(const std::string& grain, const std::string& warnings, SampleSummary& summary) {
+  std::vector<WarningKind>& kinds = summary.warning_kinds;
+  const std::string kind = kind_of(warnings);
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [&](const WarningKind& one) { return one.kind == kind; });
+  if (found != kinds.end()) {
+    ++found->grains;
+  } else {
+    kinds.push_back({kind, 1, grain});
+  }
 }
 
 constexpr const char* option_prefix = "options.";
@@ -160,66 +160,14 @@ void keep_farthest(SampleSummary& summary, GrainDistance one) {
   if (all.size() > most_grains_shown) all.pop_back();
 }
 
-void add_messages(HtmlDocument& page, const std::string& heading, const char* column,
-                  const std::vector<GrainMessage>& messages, std::size_t count) {
-  if (count == 0) return;
-  page.add_heading(heading);
-  std::vector<std::vector<std::string>> rows = {{"grain", column}};
-  for (const auto& [grain, message] : messages) rows.push_back({grain, message});
-  page.add_rows(rows, RowKind::Typed);
-  if (count > messages.size()) {
-    page.add_paragraph("And " + std::to_string(count - messages.size()) + " more. See the table.");
-  }
-}
-
-std::string options_line(const SampleSummary& summary) {
-  std::string line;
-  for (const auto& [name, value] : summary.options) {
-    if (value.empty()) continue;
-    line += (line.empty() ? "Options: " : ", ") + name + " " + value;
-  }
-  return line + ".";
-}
-
-/// Returns an HTML figure, or nothing if the mesh cannot be read.
-std::string picture_of(const GrainDistance& one, const FileOfGrain& file_of) {
-  constexpr int pixels = 72;
-  try {
-    const std::string name = std::filesystem::path(one.grain).stem().string();
-    return "<figure>" + image_element(thumbnail_of(read_mesh(file_of(one.grain)), pixels), name) +
-           "<figcaption>" + html_escaped(name) + "<br>" + format_number(one.percent, 3) +
-           " %</figcaption></figure>\n";
-  } catch (const Error&) {
-    return "";
-  }
-}
-
-void add_pictures(HtmlDocument& page, const SampleSummary& summary, const FileOfGrain& file_of) {
-  if (!file_of) return;
-  std::string pictures;
-  std::size_t count = 0;
-  for (const GrainDistance& one : summary.farthest) {
-    const std::string picture = picture_of(one, file_of);
-    if (!picture.empty()) ++count;
-    pictures += picture;
-  }
-  if (count == 0) return;
-  page.add_heading("Remeshes");
-  const std::size_t made = summary.grains - summary.failed;
-  page.add_paragraph((count < made
-                          ? "The " + std::to_string(count) + " of " + std::to_string(made) +
-                                " remeshes that are farthest from their scans"
-                          : "All remeshes, the farthest from its scan first") +
-                     ", with the rms distance in % of the equivalent radius.");
-  page.add_html("<div class=\"thumbs\">\n" + pictures + "</div>\n");
-}
-
-/// Whether the values differ by more than rounding.
-bool is_spread(const SampleDistribution& one) {
-  return shown(one, first_of(one.values), 4) != shown(one, last_of(one.values), 4);
-}
-
 }  // namespace
+
+bool is_batch_table(const std::string& path) {
+  const std::string expected = sample_header();
+  std::string begin(expected.size(), '\0');
+  std::ifstream stream(path, std::ios::binary);
+  return stream.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == expected;
+}
 
 SampleSummary summarise_table(const std::string& path) {
   InputFile stream(path);
@@ -244,7 +192,7 @@ SampleSummary summarise_table(const std::string& path) {
   for (const Source& source : sources) {
     places.emplace_back(place_of(source.column), std::nullopt);
     if (source.divisor != nullptr) places.back().second = place_of(source.divisor);
-    summary.distributions.push_back({source.key, source.label, source.unit, {}});
+    summary.distributions.push_back({source.key, source.label, source.unit, source.in_log, {}});
   }
   std::vector<std::pair<std::string, std::size_t>> options;
   for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -268,13 +216,14 @@ SampleSummary summarise_table(const std::string& path) {
     }
     if (!fields[warnings].empty()) {
       ++summary.with_warnings;
+      count_kind(fields[grain], fields[warnings], summary);
       if (summary.warned.size() < most_failures_named) {
         summary.warned.push_back({fields[grain], fields[warnings]});
       }
     }
     read_options(fields, options, summary);
     const double percent = number_of(fields[distance]);
-    if (std::isfinite(percent)) keep_farthest(summary, {fields[grain], percent});
+    if (std::isfinite(percent)) keep_farthest(summary, {fields[grain], percent, ""});
     for (std::size_t k = 0; k < places.size(); ++k) {
       const auto& [column, divisor] = places[k];
       const double value =
@@ -347,6 +296,10 @@ std::string summary_json(const SampleSummary& summary) {
   for (const auto& [grain, error] : summary.failures) {
     failures.push_back({{"grain", grain}, {"error", error}});
   }
+  Json kinds = Json::array();
+  for (const WarningKind& one : summary.warning_kinds) {
+    kinds.push_back({{"kind", one.kind}, {"grains", one.grains}, {"first", one.first}});
+  }
   Json warned = Json::array();
   for (const GrainMessage& one : summary.warned) warned.push_back(one.grain);
   Json json = {{"format", "wscvt-sample"},
@@ -355,6 +308,7 @@ std::string summary_json(const SampleSummary& summary) {
                {"grains", summary.grains},
                {"remeshed", summary.grains - summary.failed},
                {"with_warnings", summary.with_warnings},
+               {"warning_kinds", kinds},
                {"grains_with_warnings", warned},
                {"failed", summary.failed},
                {"distributions", distributions},
@@ -363,27 +317,38 @@ std::string summary_json(const SampleSummary& summary) {
   return json_document(json);
 }
 
-std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of) {
-  HtmlDocument page("A sample of " + std::to_string(summary.grains) + " grains");
-  page.add_paragraph(origin_sentence({}));
-  page.add_paragraph(count_line(summary) + ".");
-  if (!summary.labels.empty()) page.add_paragraph(census_line(summary.labels, "labels") + ".");
-  if (!summary.options.empty()) page.add_paragraph(options_line(summary));
-  add_messages(page, "Failures", "error", summary.failures, summary.failed);
-  add_messages(page, "Warnings", "warnings", summary.warned, summary.with_warnings);
-  add_pictures(page, summary, file_of);
-  std::vector<Figure> figures;
-  for (const SampleDistribution& one : summary.distributions) {
-    if (one.values.empty() || !is_spread(one)) continue;
-    figures.push_back(
-        {histogram_figure(with_unit(one), "grains", {{"sample", colour, histogram_of(one.values)}}),
-         capitalised(one.label) + " of " + std::to_string(one.values.size()) +
-             " grains, half of them below " + format_number(quantile(one.values, 0.5), 4) + "."});
+std::string count_line(const SampleSummary& summary) {
+  return std::to_string(summary.grains) + (summary.grains == 1 ? " grain: " : " grains: ") +
+         std::to_string(summary.grains - summary.failed) + " remeshed, " +
+         std::to_string(summary.with_warnings) + " of them with warnings, " +
+         std::to_string(summary.failed) + " failed";
+}
+
+std::string options_line(const SampleSummary& summary) {
+  std::string line;
+  for (const auto& [name, value] : summary.options) {
+    if (value.empty()) continue;
+    line += (line.empty() ? "Options: " : ", ") + name + " " + value;
   }
-  page.add_heading("Distributions");
-  page.add_rows(table_of(summary));
-  page.add_figures(figures);
-  return page.text();
+  return line + ".";
+}
+
+std::vector<std::vector<std::string>> quantity_table(const SampleSummary& summary) {
+  std::vector<std::vector<std::string>> rows = {
+      {"Quantity", "mean", "std. dev. (n - 1)", "smallest", "10 %", "50 %", "90 %", "largest"}};
+  for (const SampleDistribution& one : summary.distributions) {
+    if (one.values.empty()) continue;
+    rows.push_back({with_unit(one), shown(one, mean_of(one.values), 4),
+                    shown(one, deviation_of(one.values), 4), shown(one, first_of(one.values), 4),
+                    shown(one, quantile(one.values, 0.1), 4),
+                    shown(one, quantile(one.values, 0.5), 4),
+                    shown(one, quantile(one.values, 0.9), 4), shown(one, last_of(one.values), 4)});
+  }
+  return rows;
+}
+
+bool is_spread(const SampleDistribution& one) {
+  return shown(one, first_of(one.values), 4) != shown(one, last_of(one.values), 4);
 }
 
 std::vector<std::string> summary_lines(const SampleSummary& summary) {
@@ -392,7 +357,7 @@ std::vector<std::string> summary_lines(const SampleSummary& summary) {
   // What a person reads first, in 80 columns. The page has all quantities and columns.
   std::vector<std::vector<std::string>> rows = {{"Quantity", "mean", "10 %", "50 %", "90 %"}};
   for (const SampleDistribution& one : summary.distributions) {
-    if (one.values.empty() || !is_in_log(one)) continue;
+    if (one.values.empty() || !one.in_log) continue;
     rows.push_back({with_unit(one), shown(one, mean_of(one.values), 3)});
     for (const double share : {0.1, 0.5, 0.9}) {
       rows.back().push_back(shown(one, quantile(one.values, share), 3));
@@ -401,12 +366,6 @@ std::vector<std::string> summary_lines(const SampleSummary& summary) {
   if (rows.size() == 1) return lines;
   for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
   return lines;
-}
-
-void write_summary(const std::string& path, const SampleSummary& summary,
-                   const FileOfGrain& file_of) {
-  write_file(path, report_format(path) == ReportFormat::Page ? summary_html(summary, file_of)
-                                                             : summary_json(summary));
 }
 
 }  // namespace wscvt

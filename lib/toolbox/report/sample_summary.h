@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -17,6 +16,7 @@ struct SampleDistribution {
   std::string key;             ///< in files; never changes between versions
   std::string label;           ///< for people
   std::string unit;            ///< "length", "length^3", "%", "degrees" or nothing
+  bool in_log;                 ///< logs and figures show the size and what the remesh changed
   std::vector<double> values;  ///< ascending
 };
 
@@ -26,10 +26,18 @@ struct GrainMessage {
   std::string message;
 };
 
+/// Grains whose first warnings are of one kind.
+struct WarningKind {
+  std::string kind;    ///< what they have in common, such as "The remesh is not accurate"
+  std::size_t grains;  ///< their number
+  std::string first;   ///< of these grains
+};
+
 /// A remesh and its distance to its scan.
 struct GrainDistance {
   std::string grain;
-  double percent;  ///< rms distance in % of the equivalent radius
+  double percent;    ///< rms distance in % of the equivalent radius
+  std::string file;  ///< of the remesh, for its picture; empty: not known
 };
 
 /// Numbers of labels or bodies by their state in a census, such as "at the border", and of "all";
@@ -45,6 +53,7 @@ struct SampleSummary {
   std::size_t grains = 0;
   std::size_t failed = 0;
   std::size_t with_warnings = 0;
+  std::vector<WarningKind> warning_kinds;  ///< of all grains with warnings
   /// The first grains with warnings only, to limit the memory.
   std::vector<GrainMessage> warned;
   /// The first failures only, to limit the memory.
@@ -61,8 +70,11 @@ struct SampleSummary {
 /// Max. number of failures, and of grains with warnings, that a summary names.
 inline constexpr std::size_t most_failures_named = 100;
 
-/// Max. number of remeshes that a summary shows.
-inline constexpr std::size_t most_grains_shown = 100;
+/// Max. number of remeshes that a summary shows: a row of pictures.
+inline constexpr std::size_t most_grains_shown = 14;
+
+/// Whether the file is a table of remeshed grains, as batch writes it.
+bool is_batch_table(const std::string& path);
 
 /// Reads a whole table. Needs memory for 12 numbers per grain. Throws Error(InvalidInput) if the
 /// file is not such a table or ends within a row, Error(InputOutput).
@@ -75,21 +87,21 @@ Histogram histogram_of(const std::vector<double>& values);
 /// and 90 % of each distribution, failures.
 std::string summary_json(const SampleSummary& summary);
 
-/// Returns the file of a grain's remesh. An empty function: the page has no pictures of grains.
-using FileOfGrain = std::function<std::string(const std::string& grain)>;
+/// "6 grains: 5 remeshed, 1 of them with warnings, 1 failed".
+std::string count_line(const SampleSummary& summary);
 
-/// Returns an HTML report: failures and warnings by name, options, pictures of the remeshes that
-/// are farthest from their scans, a histogram of each distribution. A file that cannot be read has
-/// no picture.
-std::string summary_html(const SampleSummary& summary, const FileOfGrain& file_of = {});
+/// Returns the options of the remeshes for a page: "Options: nodes 300, edge-ratio 1.1." Options
+/// without a value are left out.
+std::string options_line(const SampleSummary& summary);
+
+/// Returns a table's rows: mean, standard deviation and quantiles of each distribution.
+std::vector<std::vector<std::string>> quantity_table(const SampleSummary& summary);
+
+/// Whether the values differ by more than rounding.
+bool is_spread(const SampleDistribution& one);
 
 /// Returns lines for a log: the counts, names of grains with warnings, then size, errors and
 /// quality of the remeshes. At most 10 lines.
 std::vector<std::string> summary_lines(const SampleSummary& summary);
-
-/// Writes the summary as HTML or JSON, by the ending of the name. Throws Error(InvalidInput) for
-/// another ending, Error(InputOutput).
-void write_summary(const std::string& path, const SampleSummary& summary,
-                   const FileOfGrain& file_of = {});
 
 }  // namespace wscvt

@@ -190,6 +190,7 @@ std::string histogram_figure(const std::string& axis, const std::string& counted
   double legend = left + 10.0;
   for (const NamedHistogram& one : histograms) {
     svg += bars(one, total_of(one.histogram), x, y);
+    if (one.name.empty()) continue;
     svg += "<rect x=\"" + number(legend) + "\" y=\"12\" width=\"12\" height=\"12\" fill=\"" +
            one.colour + "\" fill-opacity=\"0.4\" stroke=\"" + one.colour + "\"/>\n";
     svg += text_at(legend + 18.0, 23.0, "start", one.name);

@@ -13,7 +13,7 @@ namespace wscvt {
 
 /// A histogram with its name and a colour such as "#0a58b4".
 struct NamedHistogram {
-  std::string name;
+  std::string name;  ///< of the legend; empty: it has none
   std::string colour;
   Histogram histogram;
 };

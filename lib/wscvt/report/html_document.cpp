@@ -24,13 +24,15 @@ constexpr const char* style =
     "th, td { padding: 0.15em 0.8em; text-align: right; border-bottom: 1px solid #ddd; }\n"
     "th:first-child, td:first-child { text-align: left; }\n"
     "pre { overflow-x: auto; font-size: 0.85em; }\n"
+    "details { margin: 0.7em 0; }\n"
+    "summary { cursor: pointer; }\n"
     ".warning { border-left: 0.3em solid #c60; padding-left: 0.7em; }\n"
     ".figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(20em, 100%), "
     "1fr)); gap: 1em; margin-bottom: 1em; }\n"
     "figure { margin: 0; max-width: 44em; }\n"
     "figure svg, figure img { width: 100%; height: auto; }\n"
     ".thumbs { display: grid; grid-template-columns: repeat(auto-fill, minmax(5em, 1fr)); gap: "
-    "0.3em; max-height: 34em; overflow-y: auto; }\n"
+    "0.3em; max-height: 34em; overflow-y: auto; margin-bottom: 1em; }\n"
     ".thumbs figcaption { text-align: center; overflow-wrap: anywhere; }\n"
     ".turns img { display: none; }\n"
     ".turns canvas { width: 100%; aspect-ratio: 1; cursor: grab; display: block; }\n"
@@ -100,6 +102,14 @@ void HtmlDocument::add_rows(const std::vector<std::vector<std::string>>& rows, R
     body_ += "</tr>\n";
   }
   body_ += "</table></div>\n";
+}
+
+void HtmlDocument::add_folded_rows(const std::string& summary,
+                                   const std::vector<std::vector<std::string>>& rows,
+                                   RowKind kind) {
+  body_ += "<details><summary>" + html_escaped(summary) + "</summary>\n";
+  add_rows(rows, kind);
+  body_ += "</details>\n";
 }
 
 void HtmlDocument::add_table(const std::vector<DescriptorValue>& values) {
