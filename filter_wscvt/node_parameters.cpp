@@ -30,8 +30,6 @@ enum class AnyPlacement { Series, Surface, Fitted, Contact, Default };
 template <>
 struct wscvt::EnumerationTable<wscvt::filter::AnyWeighting> {
   using Any = wscvt::filter::AnyWeighting;
-  static constexpr std::string_view key = "weighting";
-  static constexpr std::string_view subject = "weighting";
   static constexpr Enumerator<Any> rows[] = {
       {Any::Constant, "constant", "constant (as published)", "equal solid angles"},
       {Any::RadialDistance, "wscvt-d", "WSCVT-D",
@@ -44,8 +42,6 @@ struct wscvt::EnumerationTable<wscvt::filter::AnyWeighting> {
 template <>
 struct wscvt::EnumerationTable<wscvt::filter::AnyPlacement> {
   using Any = wscvt::filter::AnyPlacement;
-  static constexpr std::string_view key = "placement";
-  static constexpr std::string_view subject = "node placement";
   static constexpr Enumerator<Any> rows[] = {
       {Any::Series, "sh-surface", "SH surface (as published)", "on the spherical-harmonic surface"},
       {Any::Surface, "on-surface", "on the surface", "exactly on the grain's surface"},

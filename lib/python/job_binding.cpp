@@ -136,7 +136,7 @@ py::dict batch(const std::vector<std::string>& inputs, const std::filesystem::pa
   options.shapes.resolution = describes_scan(options.shapes.described) &&
                               (voxel_size || std::any_of(files.begin(), files.end(), is_volume));
   GrainJob job = make_job(options, output.string(), shard_of(shard));
-  const py::dict counts = run_job_on(inputs, job, threads, progress, volume);
+  py::dict counts = run_job_on(inputs, job, threads, progress, volume);
   write_summaries(job, Execution(threads));
   return counts;
 }

@@ -429,7 +429,7 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
 }
 
 // What a person reads first is open; of all rows only their number is seen.
-TEST(SampleReport, ALongTableIsFolded) {
+TEST(SampleReport, ALongTableIsCollapsed) {
   GrainTable table;
   for (const char* name : {"volume", "axis_i_box", "convexity", "sphericity_wadell", "genus"}) {
     table.columns.push_back({name, ""});
@@ -460,9 +460,9 @@ TEST(SampleReport, ALongTableIsFolded) {
       (std::vector<std::string>{"descriptor", "convexity V / V(hull)", "sphericity (Wadell)"}));
   const test::Rows all = test::table_named(page, "descriptor", 1);
   EXPECT_EQ(all.size(), 21U);
-  const std::size_t folded = page.find("<details><summary>All 20 rows</summary>");
-  ASSERT_NE(folded, std::string::npos);
-  EXPECT_LT(folded, page.find("<td>other 14</td>"));
+  const std::size_t collapsed = page.find("<details><summary>All 20 rows</summary>");
+  ASSERT_NE(collapsed, std::string::npos);
+  EXPECT_LT(collapsed, page.find("<td>other 14</td>"));
   // A value that all grains share needs no grains.
   std::vector<std::string> needed;
   const Document data = data_of(page);

@@ -321,7 +321,7 @@ TEST_F(SampleSummaryOfAFile, CountsTheKindsOfWarnings) {
   ASSERT_EQ(kinds.size(), 2U);
   EXPECT_EQ(kinds[1].at("grains"), 10);
   EXPECT_EQ(kinds[1].at("first"), "g20");
-  // The grains themselves are folded.
+  // The grains themselves are collapsed.
   EXPECT_NE(page.find("<details><summary>29 grains, each with its warnings</summary>"),
             std::string::npos);
   EXPECT_EQ(test::table_named(page, "grain").size(), 30U);

@@ -142,7 +142,7 @@ int run(const FragmentArguments& arguments) {
     check_conforming_options(arguments.walls);
     require_in_range(arguments.density, parts_density_option);
     check_tetrahedra_arguments(arguments.tetrahedra);
-    const FragmentOptions read = options_of(arguments);
+    FragmentOptions read = options_of(arguments);
     for (int k = 1; k <= read.count; ++k) {
       files.push_back("fragment_" + std::to_string(k) + "." + arguments.format);
       const std::string path = (folder / files.back()).string();

@@ -18,7 +18,7 @@ class StandardStreams {
   ~StandardStreams();  // NOLINT(performance-trivially-destructible): on Windows it does something
 
  private:
-  unsigned code_page_ = 0;  ///< of the console before; 0 if there is none
+  [[maybe_unused]] unsigned code_page_ = 0;  ///< of the console before; 0 if there is none
 };
 
 /// From now on the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (closed terminal) is noted and does not

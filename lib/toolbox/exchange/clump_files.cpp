@@ -395,7 +395,7 @@ std::optional<SphereColumns> next_columns(std::istream& stream, std::string& lin
                                           std::size_t& number) {
   constexpr std::size_t most_comments = 100;
   for (number = 1; number <= most_comments && next_line(stream, line); ++number) {
-    const std::optional<SphereColumns> columns = columns_of(line);
+    std::optional<SphereColumns> columns = columns_of(line);
     if (columns || (!line.empty() && line.front() != '#' && !names_separator(line))) {
       return columns;
     }

@@ -40,8 +40,8 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
                  double density);
 
 /// Writes the parts of a grain in a frame. Returns a warning for the user, see inertia_warning.
-Sentence write_parts(const std::string& path, const PartsResult& result, const FrameOptions& frame,
-                     double density);
+Sentence write_parts(const std::string& path, const PartsResult& result,
+                     const FrameOptions& options, double density);
 
 /// Returns a warning with the unit to use if MuJoCo would refuse the inertia in a file of this
 /// name, else an empty text. `mass` as write_parts takes it, in metres.

@@ -34,7 +34,7 @@ constexpr std::size_t most_grains = 10000;
 constexpr std::size_t most_thumbnails = 100;
 constexpr int thumbnail_pixels = 72;
 
-/// A table with more rows is folded.
+/// A table with more rows is collapsed.
 constexpr std::size_t most_open_rows = 16;
 
 /// Whether a table shows a column of the sample.
@@ -290,8 +290,8 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
   return rows;
 }
 
-/// Adds a table; if it is long, what a person reads first, and all of it folded. `table_of` returns
-/// the rows of the columns that it is given a function for.
+/// Adds a table; if it is long, what a person reads first, and all of it collapsed. `table_of`
+/// returns the rows of the columns that it is given a function for.
 template <class TableOf>
 void add_long_table(HtmlDocument& page, const TableOf& table_of) {
   const auto rows = table_of([](const std::string&) { return true; });
@@ -300,7 +300,7 @@ void add_long_table(HtmlDocument& page, const TableOf& table_of) {
     return;
   }
   page.add_rows(table_of(is_first_read));
-  page.add_folded_rows("All " + std::to_string(rows.size() - 1) + " rows", rows);
+  page.add_collapsed_rows("All " + std::to_string(rows.size() - 1) + " rows", rows);
 }
 
 /// An error this small is rounding.
@@ -399,8 +399,8 @@ void add_messages(HtmlDocument& page, const char* column, const std::vector<Grai
   if (rows.size() <= most_open_rows) {
     page.add_rows(rows, RowKind::Typed);
   } else {
-    page.add_folded_rows(std::to_string(messages.size()) + " grains, each with its " + column, rows,
-                         RowKind::Typed);
+    page.add_collapsed_rows(std::to_string(messages.size()) + " grains, each with its " + column,
+                            rows, RowKind::Typed);
   }
   if (count > messages.size()) {
     page.add_paragraph("And " + std::to_string(count - messages.size()) + " more. See the table.");

@@ -77,7 +77,7 @@ std::string sample_csv(const SampleReport& report);
 /// what the remeshes changed. Of a sample: size curve, diagrams of form, histograms, thumbnails,
 /// the number of grains that an interval needs. The reader chooses the descriptor, and saves each
 /// figure as SVG and its data as CSV. The report contains the numbers of at most 10,000 grains of a
-/// sample and pictures of at most 100, chosen evenly by size. Long tables are folded.
+/// sample and pictures of at most 100, chosen evenly by size. Long tables are collapsed.
 std::string sample_html(const SampleReport& report, const Execution& execution);
 
 /// Writes the report in the format of the file's name: .html, .json or .csv. Throws the errors of

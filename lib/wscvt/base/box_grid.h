@@ -61,10 +61,11 @@ class BoxGrid {
   void for_cells(const Box& box, const Visit& visit) const {
     const Cell first = cell_at(box.min()).max(0);
     const Cell last = cell_at(box.max()).min(last_);
+    const auto size = [](int number) { return static_cast<std::size_t>(number); };
     for (int x = first[0]; x <= last[0]; ++x) {
       for (int y = first[1]; y <= last[1]; ++y) {
         for (int z = first[2]; z <= last[2]; ++z) {
-          visit(static_cast<std::size_t>((x * (last_[1] + 1) + y) * (last_[2] + 1) + z));
+          visit((size(x) * size(last_[1] + 1) + size(y)) * size(last_[2] + 1) + size(z));
         }
       }
     }

@@ -107,6 +107,7 @@ Number load_as(Stored type, boost::endian::order order, const char* bytes) {
                                    : load<Value, boost::endian::order::big>(bytes));
   };
   switch (type) {
+    // NOLINTNEXTLINE(bugprone-branch-clone): each reads another type
     case Stored::Int8:
       return read(std::int8_t());
     case Stored::Uint8:

@@ -104,9 +104,9 @@ void HtmlDocument::add_rows(const std::vector<std::vector<std::string>>& rows, R
   body_ += "</table></div>\n";
 }
 
-void HtmlDocument::add_folded_rows(const std::string& summary,
-                                   const std::vector<std::vector<std::string>>& rows,
-                                   RowKind kind) {
+void HtmlDocument::add_collapsed_rows(const std::string& summary,
+                                      const std::vector<std::vector<std::string>>& rows,
+                                      RowKind kind) {
   body_ += "<details><summary>" + html_escaped(summary) + "</summary>\n";
   add_rows(rows, kind);
   body_ += "</details>\n";
