@@ -94,9 +94,9 @@ packing() {  # folder, heading, grains, lower and upper limit of the porosity, c
 }
 # Random packings of grains with friction have .4 to .55. Walls add to it: three grains fit side by side here.
 packing yade_clumps Yade 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine yade
-container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --sizes curve.csv --engine yade
+container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine yade
 packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.02 --engine yade
-packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --sizes curve.csv --engine lammps
+packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine lammps
 container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine liggghts
 packing mujoco MuJoCo 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine mujoco
 container=cylinder packing bullet Bullet 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine bullet

@@ -128,7 +128,8 @@ TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
 TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   write_sample();
   std::ofstream(path("curve.csv")) << "0.1,0\n0.3,100\n";
-  const std::string call = "clump scans -k 2 -o out --size 0.2 --engine lammps --sizes curve.csv";
+  const std::string call =
+      "clump scans -k 2 -o out --size 0.2 --engine lammps --size-curve curve.csv";
   const Outcome outcome = run(call);
   ASSERT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("cd out && python3 run.py"), std::string::npos) << outcome.output;
@@ -162,8 +163,8 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
                   {"--engine lamps", 2, "yade, lammps, liggghts"},
                   {"--engine yade --format py", 2, "Leave out --format"},
                   {"--engine yade --frame centred", 2, "Leave out --frame"},
-                  {"--engine yade --sizes scans/a.ply", 2, "a.ply"},
-                  {"--sizes curve.csv", 2, "Give --engine"}},
+                  {"--engine yade --size-curve scans/a.ply", 2, "a.ply"},
+                  {"--size-curve curve.csv", 2, "Give --engine"}},
                  {"new"});
   expect_refused("convex scans -o new", {{"--engine yade", 2, "Give -k 1"}}, {"new"});
 }

@@ -123,7 +123,7 @@ TEST_F(FragmentCommand, RemeshesWithCommonWalls) {
 
 TEST_F(FragmentCommand, FollowsASizeCurve) {
   std::ofstream(path("curve.csv")) << "1,0\n3,100\n";
-  EXPECT_EQ(run("fragment grain.ply -k 12 -o out --sizes curve.csv").exit_code, 0);
+  EXPECT_EQ(run("fragment grain.ply -k 12 -o out --size-curve curve.csv").exit_code, 0);
   const auto rows = test::csv_records(content("out/fragments.csv"));
   ASSERT_EQ(rows.size(), 13U);
   // Fractions by number run with d^-3 from 1 to 3: (1 - (k + .5) / 12 * 26 / 27)^-1 are volumes.
@@ -152,7 +152,7 @@ TEST_F(FragmentCommand, IsRefusedAndLeavesFilesAsTheyWere) {
                   {"grain.ply -k 3 -o out -n 100 --edge-length 1", 2, "not both"},
                   {"grain.ply -k 3 -o out -n -1", 2, "nodes"},
                   {"grain.ply -k 3 -o out --near 1,2,3x", 2, "is not a point"},
-                  {"grain.ply -k 3 -o out --sizes curve.csv", 2, "at 100 %"},
+                  {"grain.ply -k 3 -o out --size-curve curve.csv", 2, "at 100 %"},
                   {"grain.ply -k 3 -o out --format tif", 2, "Rockable"},
                   {"grain.ply -k 3 -o out --density 0", 2, "ensity"},
                   {"fragment_2.ply -k 3 -o .", 2, "is the grain itself"},

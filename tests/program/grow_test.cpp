@@ -131,7 +131,7 @@ TEST_F(Grow, TakesScansThatRaysDoNotSeeWhole) {
 TEST_F(Grow, FollowsAGivenSizeCurve) {
   write_sample(8);
   std::ofstream(path("sizes.csv")) << "2,0\n4,100\n";
-  ASSERT_EQ(run("grow real -k 9 -n 60 --degree 6 -o out --sizes sizes.csv").exit_code, 0);
+  ASSERT_EQ(run("grow real -k 9 -n 60 --degree 6 -o out --size-curve sizes.csv").exit_code, 0);
   double least = 9.0, most = 0.0;
   for (int k = 1; k <= 9; ++k) {
     const IndexedMesh mesh = read_mesh(path("out/grown-0000" + std::to_string(k) + ".ply"));

@@ -96,7 +96,7 @@ TEST_F(TableHeadings, OfSpheresAndPoints) {
 
 TEST_F(TableHeadings, OfSizes) {
   write_mesh(test::sphere(1), path("scan.ply"));
-  const std::string call = "clump scan.ply -k 1 --engine lammps --sizes curve.csv -o ";
+  const std::string call = "clump scan.ply -k 1 --engine lammps --size-curve curve.csv -o ";
   for (const std::string heading : spellings) {
     SCOPED_TRACE(heading);
     write("curve.csv", "sieve;" + spelled(heading, "aperture") + "\n0,5;0\n2;100\n");

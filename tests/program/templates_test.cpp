@@ -125,7 +125,7 @@ TEST_F(Templates, RefusesWrongCalls) {
                   {"scans -k 0 -o out", 2, "number of grains"},
                   {"scans -k 2 -o out --format xyz", 2, "format"},
                   {"scans -k 1001 -o out", 2, "templates"},
-                  {"scans -k 2 -o out --sizes s.csv", 2, "Leave out --sizes"},
+                  {"scans -k 2 -o out --size-curve s.csv", 2, "Leave out --size-curve"},
                   {"none.csv -k 2 -o out", 1, "none.csv"}},
                  {"out"});
   expect_refused("grow",

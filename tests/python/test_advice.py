@@ -318,7 +318,7 @@ ALL = [
            "grow t.csv --templates=convexity -k 1 -o out", "others with (--templates=)NAMES",
            "grow t.csv -k 1 -n 60 -o out \\1sphericity_wadell", "", gone="x^", code=None),
     Advice("sizes of templates", together(scans(), text("s.csv", "1,0\n2,100\n")),
-           "grow scans --templates -k 1 -n 60 -o out --sizes s.csv", "Leave out --sizes",
+           "grow scans --templates -k 1 -n 60 -o out --size-curve s.csv", "Leave out --size-curve",
            "grow scans --templates -k 1 -n 60 -o out", "1 templates"),
     Advice("report", mesh("s.ply"), "describe s.ply -o out", "Give (--report)", "describe s.ply \\1 out.html", "sphericity"),
     # Clumps and parts

@@ -47,14 +47,14 @@ NAMES = {
                       IN_FILES | {"parts", "background"}),
     "sample": Names(lambda **o: wscvt.sample({"volume": [1.0]}, **o), "sample", {"table", "other", "repetitions"}),
     "templates": Names(lambda **o: wscvt.templates([[1.0]], [1.0], **o), "grow", {"masses", "descriptors"},
-                       {"templates", "format", "sizes", "shard", "nodes", "degree"}),
+                       {"templates", "format", "size_curve", "shard", "nodes", "degree"}),
     "grow": Names(lambda **o: wscvt.grow([], **{"count": 1, **o}), "grow", {"grains"},
-                  {"templates", "format", "sizes", "shard"}),
-    "clump": Names(lambda **o: wscvt.clump(*GRAIN, **o), "clump", {"vertices", "faces"}, {"engine", "sizes"}),
+                  {"templates", "format", "size_curve", "shard"}),
+    "clump": Names(lambda **o: wscvt.clump(*GRAIN, **o), "clump", {"vertices", "faces"}, {"engine", "size_curve"}),
     # "faces" is the number of a part's.
-    "convex": Names(lambda **o: wscvt.convex(*GRAIN, **o), "convex", OF_HANDLES, {"engine", "sizes"}),
+    "convex": Names(lambda **o: wscvt.convex(*GRAIN, **o), "convex", OF_HANDLES, {"engine", "size_curve"}),
     "fragment": Names(lambda **o: wscvt.fragment(*GRAIN, **o), "fragment", {"vertices", "faces", "volumes"},
-                      {"sizes", "format", "density", "tetrahedra"}),
+                      {"size_curve", "format", "density", "tetrahedra"}),
 }
 # Files of several grains, which the functions write with output=.
 OF_A_FOLDER = {"clump": {"shard", "format", "frame", "scale", "size", "density"},

@@ -87,7 +87,7 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
                      ". Its run.py starts the engine; scene.json has the number of grains, the "
                      "container and the materials")
       ->type_name("NAME");
-  app.add_option("--sizes", arguments.sizes,
+  app.add_option("--size-curve", arguments.sizes,
                  "Size curve of the packing, a CSV file of two columns: equivalent diameter, % "
                  "finer by mass. Default: the grains' own sizes")
       ->type_name("FILE")
@@ -101,7 +101,7 @@ void tell_density_of_packing(CLI::Option& density) {
 void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
                          const std::string& format, FrameOptions& frame) {
   if (arguments.engine.empty()) {
-    if (!arguments.sizes.empty()) refuse("--sizes is for a packing. Give --engine too.");
+    if (!arguments.sizes.empty()) refuse("--size-curve is for a packing. Give --engine too.");
     return;
   }
   check_engine(arguments.engine, shapes);

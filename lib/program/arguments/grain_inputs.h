@@ -26,7 +26,7 @@ struct ScanInputs {
   bool is_sample() const;
 };
 
-/// Adds the inputs, --format, --shard, --engine and --sizes. `files` are what is made of each
+/// Adds the inputs, --format, --shard, --engine and --size-curve. `files` are what is made of each
 /// grain, and `format` their ending. Parsing changes `arguments` and `format`, which must outlive
 /// `app`.
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,

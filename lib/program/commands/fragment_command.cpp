@@ -99,7 +99,7 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
       {"fragment",
        "Divide a grain into fragments that fill it, for breakage",
        {"grain.ply -k 20 -o fragments", "grain.ply -k 50 -o fragments --near 0,0,1.2 --format obj",
-        "grain.ply -k 100 -o fragments --sizes sieve.csv",
+        "grain.ply -k 100 -o fragments --size-curve sieve.csv",
         "grain.ply -k 20 -o fragments -n 200 --format shp"},
        "OUT gets fragment_1.ply to fragment_K.ply, fragments.csv, and contacts.csv with the area, "
        "centre and normal of each wall. Two fragments have the same triangles on their wall, and "
@@ -109,7 +109,7 @@ CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
       ->required();
   add_folder_argument(app, arguments.folder);
   add_number(app, "-k,--count", arguments.options.count, fragment_count_option);
-  add_file_argument(app, "--sizes", arguments.sizes,
+  add_file_argument(app, "--size-curve", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Its sizes are scaled to the grain. Default: about equal volumes");
   app.add_option("--near", arguments.near,

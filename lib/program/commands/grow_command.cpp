@@ -61,7 +61,7 @@ TemplateJob checked_choice(const GrowArguments& arguments) {
   require_in_range(job.options.count, template_count_option);
   check_format(job.format);
   if (!arguments.sizes.empty()) {
-    refuse("Templates have the sizes of the sample. Leave out " + mention("sizes") + ".");
+    refuse("Templates have the sizes of the sample. Leave out " + mention("size-curve") + ".");
   }
   return job;
 }
@@ -89,7 +89,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
       {"grow",
        "Make virtual grains like those of a sample, or choose templates of it",
        {"scans -k 10000 -o grown", "coefficients -k 500 -o grown -n 300 --format stl",
-        "scans -k 2000 -o grown --sizes sieve.csv", "scans --templates -k 20 -o chosen",
+        "scans -k 2000 -o grown --size-curve sieve.csv", "scans --templates -k 20 -o chosen",
         "shape.csv --templates=convexity,roundness_wadell -k 50 -o chosen"},
        "OUT gets a mesh per grain and grown.csv; of templates, meshes of the volume of a sphere of "
        "diameter 1, templates.csv (weights and sizes), sizes.csv and mercury_psd.csv (the size "
@@ -125,7 +125,7 @@ CLI::App& add_arguments(CLI::App& program, GrowArguments& arguments) {
                  "Ending of the meshes: " + mesh_extensions(MeshUse::Write) +
                      ", without the point; or json: SH coefficients, no meshes. Default: ply")
       ->type_name("NAME");
-  add_file_argument(app, "--sizes", arguments.sizes,
+  add_file_argument(app, "--size-curve", arguments.sizes,
                     "Size curve, a CSV file of two columns: equivalent diameter, % finer by mass. "
                     "Default: the sizes of the sample");
   add_number(app, "-d,--degree", arguments.job.degree, sample_degree_option);
