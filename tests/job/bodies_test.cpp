@@ -124,6 +124,24 @@ TEST_F(BodiesOfAFile, NameOneSpikeAndCountTheBodiesThatHaveOne) {
   }
 }
 
+// Where one vertex lies so far away that all others seem to be in one place, it is named.
+TEST(Bodies, AreNotMadeWithAVertexFarAway) {
+  for (const double far : {1e5, 1e8, 1e30, 1e70, 1e200}) {
+    SCOPED_TRACE(far);
+    IndexedMesh mesh = test::joined(ball(1.0, {0.1, 0.2, 0.3}), ball(1.5, {4, 0, 0}));
+    mesh.points[30].x() = far;
+    std::string refusal;
+    try {
+      EXPECT_EQ(split_bodies(mesh, {}, Execution(1)).list.size(), 2U);
+    } catch (const Error& error) {
+      refusal = error.what();
+    }
+    EXPECT_EQ(refusal.rfind("Vertex 30, counted from 0, lies at (", 0),
+              far > 1e5 ? 0U : refusal.npos)
+        << refusal;
+  }
+}
+
 TEST(Bodies, ThatTouchInAVertexAreTwo) {
   const IndexedMesh box = test::box(1.0, 2.0, 3.0);
   Vector3 corner = box.points[0];

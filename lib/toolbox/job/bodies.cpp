@@ -23,6 +23,7 @@
 #include "wscvt/repair/mesh_cells.h"
 #include "wscvt/repair/scan_advice.h"
 #include "wscvt/repair/scan_options.h"
+#include "wscvt/repair/stray_vertex.h"
 #include "wscvt/repair/weld.h"
 
 namespace wscvt {
@@ -844,6 +845,9 @@ void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execut
     }));
   }
   keep_usable_faces(mesh, execution);
+  // Bodies of other sizes never lie as far. All others would be welded into one place.
+  constexpr double farthest = 1e6;
+  refuse_stray_vertex(find_stray_vertex(mesh), farthest);
   for (NamedFaces& level : names) {
     const std::size_t width = level.of_face.size() == 2 * kept.size() ? 2 : 1;
     std::size_t count = 0;

@@ -191,10 +191,7 @@ void refuse_far_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
   report.stray_distance = stray.distance;
   report.stray_vertex = stray.vertex;
   report.stray_place = stray.place;
-  if (!(stray.distance > farthest * stray.usual)) return;
-  refuse(stray_vertex_sentence(report) + " The rest of the mesh is about " +
-         format_number(2.0 * stray.usual, 2) +
-         " across. Correct this vertex, or remove it and its faces.");
+  refuse_stray_vertex(stray, farthest);
 }
 
 /// A mesh with the rings of its edges, which are made when they are first needed after a change.

@@ -46,6 +46,15 @@ std::string merged_warning(std::size_t corners, double distance) {
          " from others and were merged with them.";
 }
 
+namespace {
+
+std::string numbered_vertex_sentence(std::size_t vertex, const Vector3& place, double distance) {
+  return stray_vertex_sentence("Vertex " + std::to_string(vertex) + ", counted from 0,", place,
+                               distance);
+}
+
+}  // namespace
+
 std::string stray_vertex_sentence(const std::string& vertex, const Vector3& place,
                                   double distance) {
   // The square of a distance above 1e154 is no number.
@@ -57,9 +66,14 @@ std::string stray_vertex_sentence(const std::string& vertex, const Vector3& plac
 }
 
 std::string stray_vertex_sentence(const MeshCheckReport& report) {
-  return stray_vertex_sentence(
-      "Vertex " + std::to_string(report.stray_vertex) + ", counted from 0,", report.stray_place,
-      report.stray_distance);
+  return numbered_vertex_sentence(report.stray_vertex, report.stray_place, report.stray_distance);
+}
+
+void refuse_stray_vertex(const StrayVertex& stray, double farthest) {
+  if (!(stray.distance > farthest * stray.usual)) return;
+  refuse(numbered_vertex_sentence(stray.vertex, stray.place, stray.distance) +
+         " The rest of the mesh is about " + format_number(2.0 * stray.usual, 2) +
+         " across. Correct this vertex, or remove it and its faces.");
 }
 
 namespace {

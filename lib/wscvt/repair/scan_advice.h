@@ -7,6 +7,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/repair/scan_options.h"
+#include "wscvt/repair/stray_vertex.h"
 
 namespace wscvt {
 
@@ -38,6 +39,10 @@ std::string merged_warning(std::size_t corners, double distance);
 /// `vertex`; `distance` from its nearest neighbour, length.
 std::string stray_vertex_sentence(const MeshCheckReport& report);
 std::string stray_vertex_sentence(const std::string& vertex, const Vector3& place, double distance);
+
+/// Throws Error(InvalidInput) if the vertex lies farther from all its neighbours than `farthest`
+/// times the usual distance of the mesh: it is a fault of the scan.
+void refuse_stray_vertex(const StrayVertex& stray, double farthest);
 
 /// Whether a closed mesh consists of voxel faces: every face is perpendicular to an axis, and there
 /// are at least 4 planes along each axis and 18 in total, so that a box and simple parts do not
