@@ -13,6 +13,7 @@
 #include "support/expect_error.h"
 #include "support/test_shapes.h"
 #include "toolbox/clump/sphere.h"
+#include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/measures/distances.h"
 
@@ -153,6 +154,24 @@ TEST(Clump, HasTheVolumeOfTheGrain) {
       EXPECT_NEAR(clump_of(scan, count).united.error.volume_percent, 0.0, 0.15) << count;
     }
   }
+}
+
+// The fit may move all spheres out of a thin rough plate. The largest one that fits remains.
+TEST(Clump, InsideAThinRoughPlateThereIsASphere) {
+  IndexedMesh plate = test::sphere(1);
+  for (Vector3& p : plate.points) {
+    p *= 1.0 + 0.85 * std::sin(31.0 * p.x() + 91.0 * p.y() + 53.0 * p.z());
+    p = Vector3(p.x(), 9.0 * p.y(), 0.1 * p.z());
+  }
+  ClumpOptions options;
+  options.inside = true;
+  options.sphere_count = 3;
+  const ClumpResult clump = make_clump(plate, options, Execution(1));
+  ASSERT_EQ(clump.spheres.size(), 1U);
+  const InscribedSphere largest = largest_inscribed_sphere(plate, Execution(1));
+  EXPECT_LE(clump.spheres.front().radius, largest.upper_bound);
+  // The search in the clump's own frame ends at another place.
+  EXPECT_GT(clump.spheres.front().radius, 0.99 * largest.radius);
 }
 
 TEST(Clump, InsideNoSphereReachesOut) {

@@ -223,7 +223,7 @@ TEST_F(Remeshes, CarryTheAttributesOfTheirScans) {
     file("out/labels.csv", census);
     write_summaries(job, Execution(1));
     EXPECT_EQ(content("out/summary.html").find("id=\"forms\""), std::string::npos);
-    EXPECT_EQ(content("out/summary.html").find("1 labels:") != std::string::npos,
+    EXPECT_EQ(content("out/summary.html").find("1 label:") != std::string::npos,
               std::string(state) == "taken");
   }
 }

@@ -46,6 +46,29 @@ class Extract : public test::ProgramRun {
   std::int64_t other_ = 0;
 };
 
+// A volume that was cut out of a larger one: all its grains are cut.
+TEST_F(Extract, OfNoGrainSaysWhyAndIsNotDone) {
+  test::MadeVolume cut({20, 20, 20});
+  cut.fill_box(3, {0, 2, 2}, {10, 18, 18});
+  cut.fill_box(4, {12, 2, 2}, {20, 18, 18});
+  test::write_bytes(folder_ / "cut.nrrd", test::nrrd(cut, ""));
+  for (const char* call : {"extract cut.nrrd out", "batch cut.nrrd -n 40 -o batch"}) {
+    SCOPED_TRACE(call);
+    const Outcome outcome = run(call);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(outcome.errors,
+              "Warning: No label is a grain to mesh: of 2 labels 2 lie at the border. Give "
+              "--at-border.\n");
+    EXPECT_NE(outcome.output.find("2 labels: 0 written, 2 at the border"), std::string::npos)
+        << outcome.output;
+  }
+  const Outcome walls = run("extract cut.nrrd walls --edge-length 4");
+  EXPECT_EQ(walls.exit_code, 1);
+  EXPECT_EQ(walls.errors,
+            "No label is a grain to mesh: of 2 labels 2 lie at the border. Give --at-border.\n");
+  EXPECT_EQ(run("extract cut.nrrd out --at-border").exit_code, 0);
+}
+
 TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   write_sample();
   const Outcome outcome = run("extract sample.nrrd out");
@@ -101,7 +124,7 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   EXPECT_NEAR(describe_shape(read_mesh(path("all/11.off")), Execution(1)).area, 198.0, 1e-9);
   EXPECT_TRUE(exists("all/9.off"));
   EXPECT_EQ(rows("all/labels.csv", "label")["11"]["unit"], "mm");
-  ASSERT_EQ(run("extract sample.nrrd between -q --background 3 --smallest 100000").exit_code, 0);
+  ASSERT_EQ(run("extract sample.nrrd between -q --background 3 --smallest 100000").exit_code, 3);
   table = rows("between/labels.csv", "label");
   EXPECT_EQ(table.count("3"), 0U);
   EXPECT_EQ(table["0"]["state"], "at the border");

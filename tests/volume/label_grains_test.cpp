@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "support/expect_error.h"
@@ -235,6 +236,41 @@ TEST_F(LabelGrainsOfAFile, TouchesTheBorderOnAnySide) {
   const LabelGrains larger(path_, options, Execution(1));
   for (std::size_t k = 0; k < 6; ++k) {
     EXPECT_EQ(larger.state(larger.labels()[k]), LabelState::TooSmall) << k;
+  }
+}
+
+TEST_F(LabelGrainsOfAFile, SayWhyNoLabelIsTaken) {
+  const std::tuple<int, int, const char*> cases[] = {
+      {1, 0, "of 1 label 1 lies at the border. Give --at-border."},
+      {0, 2, "of 2 labels 2 are too small. Give a smaller --smallest."},
+      {2, 1,
+       "of 3 labels 2 lie at the border and 1 is too small. Give --at-border or a smaller "
+       "--smallest."}};
+  for (const auto& [cut, small, text] : cases) {
+    SCOPED_TRACE(text);
+    MadeVolume volume({20, 22, 24});
+    for (int k = 0; k < cut; ++k) {
+      const double at = 8.0 * k;
+      volume.fill_box(static_cast<Label>(5 + k), {0, at, 1}, {6, at + 6, 7});
+    }
+    for (int k = 0; k < small; ++k) {
+      const double at = 8.0 + 4.0 * k;
+      volume.fill_box(static_cast<Label>(15 + k), {10, at, 10}, {12, at + 2, 12});
+    }
+    write(volume);
+    const LabelGrains grains(path_, {}, Execution(1));
+    EXPECT_EQ(grains.none_taken().text(), "No label is a grain to mesh: " + std::string(text));
+    ASSERT_EQ(grains.warnings().size(), 1U);
+    EXPECT_EQ(grains.warnings().front(), grains.none_taken());
+    EXPECT_EQ(grains.left_out(), 1.0);
+    VolumeOptions advised;
+    advised.at_border = cut > 0;
+    advised.smallest = 8;
+    const LabelGrains all(path_, advised, Execution(1));
+    EXPECT_EQ(all.taken().size(), static_cast<std::size_t>(cut + small));
+    EXPECT_TRUE(all.warnings().empty());
+    EXPECT_TRUE(all.none_taken().empty());
+    EXPECT_EQ(all.left_out(), 0.0);
   }
 }
 

@@ -228,6 +228,7 @@ int run(const ExtractArguments& given) {
     grains.add(std::move(bodies));
   } else {
     auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
+    if (arguments.is_conforming()) taken_labels(*labels);  // before a warning says the same
     print_notes(*labels, use_parts, arguments.quiet);
     if (arguments.is_conforming()) return run_conforming(arguments, *labels);
     grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));

@@ -155,7 +155,13 @@ int run(const RemeshArguments& arguments) {
   }
   std::vector<ReportAddition> additions;
   std::vector<std::string> lines = rounding_lines(roundings);
-  const auto filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work, additions);
+  std::vector<std::string> filled;
+  try {
+    filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work, additions);
+  } catch (const Error&) {
+    print_warnings({result.warnings.begin(), result.warnings.end()});  // they may say why
+    throw;
+  }
   lines.insert(lines.end(), filled.begin(), filled.end());
   work.write_reports(common.reports, result, origin, additions);
   if (!arguments.coefficients.empty()) {

@@ -193,7 +193,8 @@ void add_warnings(ClumpResult& result) {
         format_typed(options.max_error_percent) + " %. Allow more spheres, or a larger error.");
   } else if (options.max_error_percent == 0.0 &&
              result.spheres.size() < static_cast<std::size_t>(options.sphere_count)) {
-    result.warnings.push_back("Only " + count + " of the smallest radius fit inside.");
+    result.warnings.push_back("Only " + count + " of the smallest radius " +
+                              (result.spheres.size() == 1 ? "fits" : "fit") + " inside.");
   }
   constexpr double least_shared = 0.5;
   if (result.intersection_over_union < least_shared) {

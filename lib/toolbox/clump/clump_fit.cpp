@@ -223,7 +223,8 @@ class Growth {
                   {smallest, std::max(smallest, most_bulge * largest.upper_bound),
                    options_.inside ? &depths_ : nullptr});
     fit.set_inner_weight(held_weight);
-    fit.add({largest.centre, std::max(largest.radius, smallest_)});
+    inscribed_ = {largest.centre, std::max(largest.radius, smallest_)};
+    fit.add(inscribed_);
     sweep(fit, 10);
     return fit;
   }
@@ -277,7 +278,8 @@ class Growth {
   }
 
   /// Shrinks the spheres to the surface between the samples, and drops spheres that are then too
-  /// small.
+  /// small. The largest inscribed one always remains: the fit may have moved it out of a thin
+  /// place.
   void keep_inside(std::vector<Sphere>& spheres) const {
     for (Sphere& sphere : spheres) {
       sphere.radius = surface_.contains(sphere.centre) ? surface_.distance(sphere.centre) : 0.0;
@@ -285,6 +287,7 @@ class Growth {
     spheres.erase(std::remove_if(spheres.begin(), spheres.end(),
                                  [&](const Sphere& sphere) { return sphere.radius < smallest_; }),
                   spheres.end());
+    if (spheres.empty()) spheres.push_back(inscribed_);
   }
 
   /// Changes all radii by one length, so that the union has the grain's volume. The fit minimizes
@@ -350,6 +353,7 @@ class Growth {
   std::vector<Sphere> candidates_;
   std::vector<double> gains_;     ///< energy that each candidate saved when last evaluated
   std::size_t next_judging_ = 0;  ///< number of spheres at which all are evaluated again
+  Sphere inscribed_;              ///< the largest inside, from which the fit begins
   SphereFit fit_;
 };
 

@@ -51,10 +51,7 @@ std::vector<Label> taken_labels(const LabelGrains& grains) {
   for (const LabelExtent& label : grains.labels()) {
     if (grains.state(label) == LabelState::Taken) labels.push_back(label.label);
   }
-  if (labels.empty()) {
-    refuse("No label is a grain to mesh. Give " + mention(at_border_option) + " or a smaller " +
-           mention(smallest_option) + ".");
-  }
+  if (labels.empty()) refuse(grains.none_taken());
   return labels;
 }
 
@@ -146,9 +143,9 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
   edges +=
       ". Smallest angle of a triangle: " + format_number(grains.smallest_angle, 3) + " degrees";
   std::vector<std::string> lines = {
-      std::to_string(grains.grains.size()) + (voxels > 0 ? " grains" : " fragments") + " with " +
-          std::to_string(grains.walls.size()) +
-          " common walls: " + std::to_string(grains.points.size()) + " nodes, " +
+      format_count(grains.grains.size(), voxels > 0 ? "grain" : "fragment") + " with " +
+          format_count(grains.walls.size(), "common wall") + ": " +
+          std::to_string(grains.points.size()) + " nodes, " +
           std::to_string(grains.triangles.size()) + " triangles",
       edges};
   if (voxels > 0) {

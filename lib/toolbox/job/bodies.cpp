@@ -785,10 +785,6 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
   return bodies;
 }
 
-std::string count_of(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 /// Returns a warning on bodies inside of each other in part; empty: there are none. Asks points an
 /// edge below their surfaces: walls that were smoothed one by one cross a little.
 std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution& execution) {
@@ -831,8 +827,9 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
   if (pairs.empty()) return "";
   const auto& [first, second] = *pairs.begin();
   return "Bodies " + std::to_string(first + 1) + " and " + std::to_string(second + 1) + " overlap" +
-         (pairs.size() == 1 ? ""
-                            : ", and " + count_of(pairs.size() - 1, "other pair", "other pairs")) +
+         (pairs.size() == 1
+              ? ""
+              : ", and " + format_count(pairs.size() - 1, "other pair", "other pairs")) +
          ". What they have in common counts in both. Check that none is there twice.";
 }
 
@@ -902,13 +899,13 @@ MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
   const std::string overlap = overlap_warning(result.list, execution);
   if (!overlap.empty()) result.warnings.push_back(overlap);
   if (copies > 0) {
-    result.warnings.push_back(count_of(copies, "body is", "bodies are") +
+    result.warnings.push_back(format_count(copies, "body is", "bodies are") +
                               " there more than once. Copies were left out.");
   }
   if (found.left_out > 0) {
-    result.warnings.push_back(count_of(found.left_out,
-                                       "face hangs on a body and encloses nothing. It was",
-                                       "faces hang on bodies and enclose nothing. They were") +
+    result.warnings.push_back(format_count(found.left_out,
+                                           "face hangs on a body and encloses nothing. It was",
+                                           "faces hang on bodies and enclose nothing. They were") +
                               " left out.");
   }
   if (found.inclusions > 0) {
@@ -922,7 +919,7 @@ MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
   }
   if (found.maybe_voids > 0) {
     result.warnings.push_back("All faces of " +
-                              count_of(found.maybe_voids, "body look", "bodies look") +
+                              format_count(found.maybe_voids, "body look", "bodies look") +
                               " into it, and it touches others on all sides. If it is a void "
                               "between them, leave it out.");
   }

@@ -262,10 +262,10 @@ Histogram histogram_of(const std::vector<double>& values) {
 }
 
 std::string census_line(CensusStates states, const std::string& noun) {
-  const bool is_one_body = states["all"] == 1 && noun == "bodies";
   const char* made = states["taken"] > 0 ? "taken" : "written";
-  std::string text = std::to_string(states["all"]) + (is_one_body ? " body" : " " + noun) + ": " +
-                     std::to_string(states[made]) + " " + made;
+  std::string text = (noun == "bodies" ? format_count(states["all"], "body", noun)
+                                       : format_count(states["all"], "label")) +
+                     ": " + std::to_string(states[made]) + " " + made;
   if (states["pieces"] > 0) text += " (" + std::to_string(states["pieces"]) + " in pieces)";
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += ", " + std::to_string(count) + what;

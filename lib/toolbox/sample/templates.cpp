@@ -2,6 +2,7 @@
 #include "toolbox/sample/templates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -123,7 +124,7 @@ class Fit {
 /// A set of grains with their best weights.
 struct Choice {
   std::vector<std::size_t> grains;
-  Eigen::VectorXd weights[2];
+  std::array<Eigen::VectorXd, 2> weights;
   double cost = std::numeric_limits<double>::infinity();
 };
 

@@ -109,10 +109,8 @@ class Session {
     WSCVT_GMSH(library_, gmshLoggerGetLastError)(&words, &ignored);
     const std::string said = words == nullptr ? "no reason" : words;
     if (words != nullptr) WSCVT_GMSH(library_, gmshFree)(words);
-    throw Error(ErrorCode::NumericalFailure,
-                "Gmsh cannot fill the surface with tetrahedra (" + said +
-                    "). Surfaces that intersect themselves cannot be filled. Use another number "
-                    "of nodes.");
+    throw Error(ErrorCode::NumericalFailure, "Gmsh cannot fill the surface with tetrahedra (" +
+                                                 said + "). Use another number of nodes.");
   }
 
   const Library& library_;

@@ -16,6 +16,7 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 
@@ -103,8 +104,17 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
            " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
            " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
   }
-  const GmshVolume filled =
-      gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
+  GmshVolume filled;
+  try {
+    filled = gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
+  } catch (const Error&) {
+    const std::size_t pairs = self_intersections(surface, execution).size();
+    if (pairs == 0) throw;
+    throw Error(ErrorCode::NumericalFailure,
+                format_count(pairs, "pair") +
+                    " of triangles of the surface intersect, and no tetrahedra fill such a "
+                    "surface. Of a remesh, a warning says what to use instead.");
+  }
   TetrahedralMesh mesh;
   mesh.surface = std::move(surface);
   for (std::size_t i = mesh.surface.points.size(); i < filled.coordinates.size() / 3; ++i) {

@@ -363,6 +363,7 @@ std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, s
   return std::make_unique<UnpackedBytes<Inflater>>(std::move(packed), std::move(path));
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): moved where there is bzip2
 std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
 #ifdef WSCVT_HAS_PACKERS
   return std::make_unique<UnpackedBytes<Bunzipper>>(std::move(packed), std::move(path));

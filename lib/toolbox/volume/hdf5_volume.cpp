@@ -486,8 +486,8 @@ class Hdf5Bytes : public MadeBytes {
     H5Pget_chunk(made, static_cast<int>(chunk.size()), chunk.data());
     double bytes = 8.0;
     for (std::size_t k = 0; k < chunk.size(); ++k) {
-      const auto chunks = static_cast<double>((counts_[k] + chunk[k] - 1) / chunk[k] + 1);
-      bytes *= chunks * static_cast<double>(chunk[k]);
+      const hsize_t chunks = (counts_[k] + chunk[k] - 1) / chunk[k] + 1;
+      bytes *= static_cast<double>(chunks) * static_cast<double>(chunk[k]);
     }
     constexpr double most = 256.0 * 1024 * 1024;
     constexpr std::size_t slots = 100003;  // a prime, as the library recommends

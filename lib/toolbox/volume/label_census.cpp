@@ -113,7 +113,7 @@ void GreyCheck::Neighbours::count(const Label* a, const Label* b, std::size_t si
   for (std::size_t k = 0; k < size; ++k) {
     const bool are_labels = (a[k] != background) & (b[k] != background);
     all += are_labels ? 1 : 0;
-    different += are_labels & (a[k] != b[k]) ? 1 : 0;
+    different += (are_labels & (a[k] != b[k])) ? 1 : 0;
   }
 }
 

@@ -55,6 +55,29 @@ LabelGrains::LabelGrains(std::function<std::unique_ptr<LabelVolume>()> open,
   std::stable_sort(taken_.begin(), taken_.end(), [&](std::size_t a, std::size_t b) {
     return labels_[a].end[2] < labels_[b].end[2];
   });
+  warnings_ = volume_->warnings();
+  if (taken_.empty()) warnings_.push_back(none_taken());
+}
+
+Sentence LabelGrains::none_taken() const {
+  if (!taken_.empty()) return "";
+  const auto small = static_cast<std::size_t>(std::count_if(
+      labels_.begin(), labels_.end(),
+      [&](const LabelExtent& label) { return state(label) == LabelState::TooSmall; }));
+  const std::size_t cut = labels_.size() - small;
+  std::string why;
+  Sentence advice;
+  if (cut > 0) {
+    why = std::to_string(cut) + (cut == 1 ? " lies" : " lie") + " at the border";
+    advice = mention(at_border_option);
+  }
+  if (small > 0) {
+    why += (cut > 0 ? " and " : "") + std::to_string(small) + (small == 1 ? " is" : " are") +
+           " too small";
+    advice += (cut > 0 ? " or a smaller " : "a smaller ") + mention(smallest_option);
+  }
+  return "No label is a grain to mesh: of " + std::to_string(labels_.size()) +
+         (labels_.size() == 1 ? " label " : " labels ") + why + ". Give " + advice + ".";
 }
 
 void LabelGrains::find_labels(bool anew, const Execution& execution) {
@@ -80,6 +103,7 @@ std::string LabelGrains::name_of(Label label) const {
 }
 
 double LabelGrains::left_out() const {
+  if (taken_.empty()) return 1.0;
   std::uint64_t all = 0;
   std::uint64_t left_out = 0;
   for (const std::size_t k : taken_) {
@@ -88,7 +112,7 @@ double LabelGrains::left_out() const {
     all += label.voxels;
     left_out += label.voxels - (is_kept ? label.largest_piece : 0);
   }
-  return all == 0 ? 0.0 : static_cast<double>(left_out) / static_cast<double>(all);
+  return static_cast<double>(left_out) / static_cast<double>(all);
 }
 
 LabelState LabelGrains::state(const LabelExtent& label) const {

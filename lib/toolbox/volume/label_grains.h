@@ -85,13 +85,17 @@ class LabelGrains {
   /// See LabelVolume.
   const std::vector<Sentence>& notes() const { return volume_->notes(); }
   const Sentence& description() const { return volume_->description(); }
-  const std::vector<Sentence>& warnings() const { return volume_->warnings(); }
+  /// Those of the volume, and none_taken.
+  const std::vector<Sentence>& warnings() const { return warnings_; }
+
+  /// Returns why no label is taken and what to give; empty if one is.
+  Sentence none_taken() const;
 
   /// Returns the file's name of a label; empty if it has none.
   std::string name_of(Label label) const;
 
   /// Returns the fraction of the voxels of all taken labels that is not meshed: the smaller pieces,
-  /// and the largest too if it is below the smallest grain.
+  /// and the largest too if it is below the smallest grain. 1 if no label is taken.
   double left_out() const;
 
   /// All labels, ascending.
@@ -122,6 +126,7 @@ class LabelGrains {
   void begin_again();
 
   VolumeOptions options_;
+  std::vector<Sentence> warnings_;
   std::function<std::unique_ptr<LabelVolume>()> open_;
   std::unique_ptr<LabelVolume> volume_;
   std::vector<LabelExtent> labels_;

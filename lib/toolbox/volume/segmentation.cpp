@@ -465,7 +465,9 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                       const Execution& execution) {
   const VoxelCounts& sizes = scan.geometry().counts;
   ShortGrey values = short_grey(scan, range, left_out, execution.part(0.0, 0.1));
-  auto& [grey, base, step] = values;
+  auto& grey = values.grey;  // no structured binding: a lambda cannot capture one
+  const double base = values.base;
+  const double step = values.step;
   const CutOffGreys cut_off = cut_off_greys(grey, left_out, sizes);
   if (!options.threshold) result.cut_off = cut_off;
   grey = median_of(grey, sizes, execution.part(0.1, 0.3));

@@ -499,9 +499,8 @@ std::string segmentation_html(LabelVolume& scan, const Segmentation& segmentatio
     row.push_back(format_number(quantile(diameters, share), 4));
   }
   page.add_rows({{"of the grains", "smallest", "10 %", "50 %", "90 %", "largest"}, row});
-  page.add_figures(
-      {{histogram_figure(what, "grains", {{"", "#0a58b4", histogram_of(diameters)}}),
-        "Sizes of " + std::to_string(diameters.size()) + " grains."}});
+  page.add_figures({{histogram_figure(what, "grains", {{"", "#0a58b4", histogram_of(diameters)}}),
+                     "Sizes of " + std::to_string(diameters.size()) + " grains."}});
   return page.text();
 }
 

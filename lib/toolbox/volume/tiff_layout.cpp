@@ -201,7 +201,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
       layout.unit = unit_of(json["unit"].get<std::string>());
     }
   }
-  const Json shape = json["shape"];
+  const Json& shape = json["shape"];
   std::vector<std::int64_t> counts;
   for (const Json& count : shape) {
     if (!count.is_number_integer() || count.get<std::int64_t>() < 1 ||

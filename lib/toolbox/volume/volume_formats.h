@@ -37,7 +37,7 @@ std::unique_ptr<LabelVolume> volume_of_array(const VolumeArray& array, const Vol
                                              const std::string& name);
 
 /// Opens HDF5, and MATLAB's files from version 7.3 on.
-std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& choice);
+std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice& chosen);
 
 /// Opens a raw file described by a JSON object with "dimensions", [x, y, z], "type", such as
 /// "uint16", and if needed:

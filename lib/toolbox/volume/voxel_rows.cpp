@@ -118,6 +118,7 @@ void load_row(const char* bytes, LabelCoding& coding, std::vector<Label>& row,
         is_label = is_label && value >= Value{0} && static_cast<std::uint64_t>(value) <= most;
       }
       if (is_label) {
+        // NOLINTNEXTLINE(bugprone-signed-char-misuse): it is not negative
         row[i] = static_cast<Label>(value);
         continue;
       }

@@ -150,6 +150,7 @@ double near_cosine(Two r) {
 double angle_of(double y, double x) {
   if (x > 1e300) return angle_of(y * 0x1p-100, x * 0x1p-100);
   const double slope = y / x;
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): of 0 to 8, and lround is the platform's
   const auto j = static_cast<int>(8.0 * slope + 0.5);
   const double c = 0.125 * j;
   const double z = j == 0 ? slope : (y - c * x) / (x + c * y);

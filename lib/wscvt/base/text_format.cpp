@@ -78,6 +78,10 @@ std::string format_exact(double value) {
   return {text.data(), end.ptr};
 }
 
+std::string format_count(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many.empty() ? one + "s" : many);
+}
+
 std::vector<std::string> aligned_lines(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (const auto& row : rows) {

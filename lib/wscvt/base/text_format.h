@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ std::string error_text(double percent);
 /// Formats a number for programs: the shortest text that reads back to the same bits. Empty if it
 /// is not finite.
 std::string format_exact(double value);
+
+/// Returns "1 face", "2 faces". `many`: if it is not `one` with an s, such as "bodies".
+std::string format_count(std::size_t count, const std::string& one, const std::string& many = "");
 
 /// Returns rows of cells as lines: the first column is flush left, the others flush right, two
 /// spaces apart.

@@ -265,7 +265,7 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
     search.refine(execution);
     execution.report(search.share_done(), stage);
   }
-  const InscribedSphere sphere = search.result();
+  InscribedSphere sphere = search.result();
   if (!(sphere.radius > 0.0)) {
     refuse(
         "No point was found inside the mesh, so no sphere fits into it. Give a closed mesh that "

@@ -261,10 +261,10 @@ MeshFile read_as(ByteReader& reader, const Format& format) {
 }
 
 /// Reads a mesh from content in memory.
-MeshFile read_content(std::string content, const std::string& path, const Format& format,
+MeshFile read_content(const std::string& content, const std::string& path, const Format& format,
                       const Execution& execution) {
   const std::size_t size = content.size();
-  std::istringstream stream(std::move(content));
+  std::istringstream stream(content);
   ByteReader reader(stream, size, path, execution);
   return read_as(reader, format);
 }

@@ -119,7 +119,7 @@ class PcdReader {
       } else if (key == "points") {
         points = number(words.next(), most_points);
       } else if (key == "data") {
-        const std::string form = lower_case(words.next());
+        std::string form = lower_case(words.next());
         points_ =
             points.value_or(width > most_points / (height + 1) ? most_points : width * height);
         check_fields();

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 fs::path named_file(const fs::path& folder, const std::string& name) {
   std::string with_slashes = name;
   std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
-  const fs::path known = folder / name;
+  fs::path known = folder / name;
   for (const fs::path& path :
        {known, folder / with_slashes, folder / fs::path(with_slashes).filename()}) {
     std::error_code error;

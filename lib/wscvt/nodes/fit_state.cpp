@@ -61,7 +61,8 @@ FitDial fit_dial(double ratio, bool weighted) {
       1e-6, 1.0);
   dial.lead_rounds = is_even ? dial.rounds - 3 : std::max(1.0, (0.4 + 0.3 * close) * dial.rounds);
   dial.heats = close > 0.3 ? 3 : 1;
-  dial.first_steering = is_even ? dial.rounds / 3 : dial.lead_rounds;
+  const int third = dial.rounds / 3;
+  dial.first_steering = is_even ? third : dial.lead_rounds;
   dial.ratio_slope = 0.03 + 0.25 * x;
   dial.plain_springs = std::max(0.1, 1.0 - 11.0 * x);
   dial.triangle_springs = 0.3 * (1.0 - dial.plain_springs) / 0.9;

@@ -71,7 +71,7 @@ Nodes ScanMethod::place(int node_count, const Execution& execution) const {
     measure_moved(execution, nodes, placed.report);
   }
   if (with_curvatures_) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
-  nodes.report = OnScanReport{{}, std::move(placed.report), 0};
+  nodes.report = OnScanReport{{}, placed.report, 0};
   return nodes;
 }
 

@@ -106,7 +106,7 @@ std::string single_precision_warning(const IndexedMesh& mesh, const std::string&
 }
 
 std::string precision_warning(const IndexedMesh& mesh) {
-  const std::string far = single_precision_warning(mesh, "The scan");
+  std::string far = single_precision_warning(mesh, "The scan");
   if (!far.empty() || !is_measurable(mesh)) return far;
   const double edge = sampled_mean_edge(mesh);
   // Scans of voxels also have coarse steps, but lose no faces.

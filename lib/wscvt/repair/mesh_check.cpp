@@ -33,11 +33,6 @@ namespace {
 /// surface is flat within rounding.
 constexpr double flat_limit = 1e-9;
 
-/// Returns "1 face", "2 faces".
-std::string count_of(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 /// A component that is not kept.
 struct OtherComponent {
   std::size_t faces = 0;
@@ -133,7 +128,7 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
   if (report.dropped_volume_fraction > options.dropped_volume_limit) {
     if (seam > 0.0) refuse(open_seam_sentence(seam));
     if (crossing > 0 && open == 0) {
-      refuse("The mesh has " + count_of(crossing + 1, "closed surface") +
+      refuse("The mesh has " + format_count(crossing + 1, "closed surface") +
              " that cross each other, so it is not clear what the grain is. Join them by " +
              mention(shrink_wrap_option, 1.0) + ".");
     }
@@ -158,12 +153,12 @@ void judge_repair(const MeshCheckOptions& options, std::size_t boundary_edges, d
   if (seam > 0.0) refuse(open_seam_sentence(seam));
   std::string found;
   if (report.non_manifold_edges > 0) {
-    found = count_of(report.non_manifold_edges, "non-manifold edge") +
+    found = format_count(report.non_manifold_edges, "non-manifold edge") +
             ", shared by more than two faces";
   }
   if (report.filled_holes > 0) {
-    found += (found.empty() ? "" : ", and ") + count_of(boundary_edges, "boundary edge") +
-             " around " + count_of(report.filled_holes, "hole");
+    found += (found.empty() ? "" : ", and ") + format_count(boundary_edges, "boundary edge") +
+             " around " + format_count(report.filled_holes, "hole");
   }
   Sentence sentence = "The mesh has " + found + ". Their repair would change " +
                       format_above(limit, 100.0 * mended) + " % of its area (limit " +

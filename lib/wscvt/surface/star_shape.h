@@ -26,7 +26,7 @@ struct StarShape {
 
   /// Returns the part of a vector along the surface, and at a rim along the rim.
   Vector3 tangential(const Vector3& v) const {
-    const Vector3 flat = v - normal.dot(v) * normal;
+    Vector3 flat = v - normal.dot(v) * normal;
     if (rim == 0.0) return flat;
     return (1.0 - rim) * flat + rim * along.dot(v) * along;
   }
