@@ -78,13 +78,21 @@ void check_coefficients_path(const std::string& path) {
          "\" is no name for coefficients. Give a name that ends in .json, or in .sh for SHTOOLS.");
 }
 
-/// Fills the remesh with tetrahedra, if the call asks for it. Returns lines for the log.
-std::vector<std::string> fill(const TetrahedraArguments& tetrahedra, const IndexedMesh& surface,
-                              Work& work, std::vector<ReportAddition>& additions) {
+/// Fills the remesh with tetrahedra, if the call asks for it. Returns lines for the log. If they
+/// cannot be made, prints the remesh's warnings first, because they may say why.
+std::vector<std::string> fill(const TetrahedraArguments& tetrahedra, const RemeshResult& result,
+                              const SimulationFrame& frame, Work& work,
+                              std::vector<ReportAddition>& additions) {
   return write_all_tetrahedra(tetrahedra, work, [&] {
-    TetrahedralMesh body = tetrahedra_in(surface, tetrahedra.edge, work.execution());
-    additions.push_back(tetrahedra_addition(body));
-    return body;
+    try {
+      TetrahedralMesh body =
+          tetrahedra_in(in_frame(result.mesh, frame), tetrahedra.edge, work.execution());
+      additions.push_back(tetrahedra_addition(body));
+      return body;
+    } catch (const Error&) {
+      print_warnings({result.warnings.begin(), result.warnings.end()});
+      throw;
+    }
   });
 }
 
@@ -155,13 +163,7 @@ int run(const RemeshArguments& arguments) {
   }
   std::vector<ReportAddition> additions;
   std::vector<std::string> lines = rounding_lines(roundings);
-  std::vector<std::string> filled;
-  try {
-    filled = fill(simulation.tetrahedra, in_frame(result.mesh, frame), work, additions);
-  } catch (const Error&) {
-    print_warnings({result.warnings.begin(), result.warnings.end()});  // they may say why
-    throw;
-  }
+  const auto filled = fill(simulation.tetrahedra, result, frame, work, additions);
   lines.insert(lines.end(), filled.begin(), filled.end());
   work.write_reports(common.reports, result, origin, additions);
   if (!arguments.coefficients.empty()) {
