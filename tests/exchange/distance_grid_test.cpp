@@ -139,7 +139,9 @@ TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {
 TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
   const DistanceGrid grid = distance_grid(test::box(1, 2, 3), {0.4}, Execution(1));
   const std::string bytes = grid_vti(grid);
-  const auto& [nx, ny, nz] = grid.counts;
+  const auto nx = grid.counts[0];
+  const auto ny = grid.counts[1];
+  const auto nz = grid.counts[2];
   const auto extent = [&](const char* name) {
     return std::string(name) + "=\"0 " + std::to_string(nx - 1) + " 0 " + std::to_string(ny - 1) +
            " 0 " + std::to_string(nz - 1) + "\"";

@@ -586,12 +586,12 @@ TEST_F(Job, OnlyTheGrainsOwnFailureIsInItsRow) {
   for (const auto& [name, refusal] : refusals) {
     GrainJob job = number_job(name);
     bool refuses = true;
-    job.make = [&, make = job.make](GrainAtWork& grain) {
+    job.make = [&, make = job.make, end = refusal](GrainAtWork& grain) {
       if (grain.name == Points(9).name(3)) {
         throw Error(ErrorCode::NumericalFailure, "It breaks.");
       }
       if (grain.name == Points(9).name(4)) throw std::runtime_error("It breaks too.");
-      if (refuses && grain.name == Points(9).name(6)) refusal();
+      if (refuses && grain.name == Points(9).name(6)) end();
       return make(grain);
     };
     Points grains(9);

@@ -22,6 +22,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/repair/new_surface.h"

@@ -175,9 +175,10 @@ TEST_F(ReportFiles, TableSaysWhyItCannotBeWritten) {
       {"not there/table.csv", "Check that the folder exists"},
       {"one.csv", "one.csv\" is a link to a missing file"}};
   for (const auto& [name, sentence] : cases) {
+    const std::string table = path(name);
     for (const auto& call : {check_table, append_to_table}) {
       const std::string refusal =
-          test::refusal(ErrorCode::InputOutput, [&] { call(path(name), "a,b\r\n3,4\r\n"); });
+          test::refusal(ErrorCode::InputOutput, [&] { call(table, "a,b\r\n3,4\r\n"); });
       EXPECT_NE(refusal.find(sentence), std::string::npos) << refusal;
     }
   }

@@ -539,7 +539,8 @@ TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
                                                         {"packed.am", "packed, or a text"},
                                                         {"text.am", "packed, or a text"},
                                                         {"a.raw", "\"file\": \"a.raw\""}}) {
-    EXPECT_NE(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path(name)); }).find(way),
+    const std::string file = path(name);
+    EXPECT_NE(test::refusal(ErrorCode::InputOutput, [&] { open_volume(file); }).find(way),
               std::string::npos)
         << name;
   }

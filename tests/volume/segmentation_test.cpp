@@ -914,6 +914,62 @@ TEST_F(SegmentationOfAFile, DoubtsOneGrainAndDarkGrains) {
   EXPECT_TRUE(has(segmented(), "darker than the rest"));
 }
 
+// Dark grains in a packing touch each other and the border, so that they are no holes.
+TEST_F(SegmentationOfAFile, DoubtsThatTheSpaceBetweenDarkGrainsIsGrains) {
+  double of_grains = 0.0;
+  double of_space = 0.0;
+  for (const bool are_dark : {false, true}) {
+    made_ = MadeVolume({50, 48, 46});
+    made_.fill(are_dark ? 200 : 50, [](const Vector3&) { return true; });
+    for (int k = 0; k < 64; ++k) {
+      // No symmetry: each ball a little beside its place.
+      const Vector3 place(k % 4, k / 4 % 4, k / 16);
+      const Vector3 beside(std::sin(k), std::sin(2.3 * k + 1.0), std::sin(3.1 * k + 2.0));
+      made_.fill_ball(are_dark ? 50 : 200, 6.0 * Vector3::Ones() + 12.0 * place + beside, 5.6);
+    }
+    made_.at(0, 0, 0) = are_dark ? 201 : 51;  // not a mask
+    write_made();
+    const auto is_told = [&](const SegmentationOptions& options) {
+      const Segmentation found = segmented(options);
+      (options.dark == are_dark ? of_grains : of_space) = found.island_fraction;
+      const std::vector<Sentence> doubts = doubts_of(found);
+      return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
+        return doubt.rfind("In slices the material has more holes than islands", 0) == 0;
+      });
+    };
+    SegmentationOptions right;
+    right.dark = are_dark;
+    SegmentationOptions wrong;
+    wrong.dark = !are_dark;
+    EXPECT_FALSE(is_told(right)) << are_dark;
+    EXPECT_TRUE(is_told(wrong)) << are_dark;
+    EXPECT_GT(of_grains, 0.3);
+    EXPECT_LT(of_space, -0.3);
+  }
+}
+
+TEST_F(SegmentationOfAFile, IslandsAreThoseOfSlices) {
+  // Boxes by themselves are an island of each of their slices, along each axis.
+  made_ = MadeVolume({40, 30, 26});
+  made_.fill_box(1, {3, 2, 4}, {12, 9, 15});
+  made_.fill_box(1, {20, 5, 3}, {31, 19, 12});
+  write_made();
+  EXPECT_EQ(segmented().grains.size(), 2U);
+  EXPECT_EQ(segmented().island_fraction, 1.0);
+  // A tube is a ring in the slices across it, an island with a hole. Of the 16 slices along it, 8
+  // meet its hole and have two islands.
+  made_ = MadeVolume({40, 30, 26});
+  made_.fill_box(1, {10, 5, 3}, {30, 21, 19});
+  made_.fill_box(0, {10, 9, 7}, {30, 17, 15});
+  write_made();
+  const Segmentation tube = segmented();
+  double slices = 0.0;
+  for (const LabelExtent& grain : tube.grains) {
+    for (std::size_t axis = 0; axis < 3; ++axis) slices += grain.end[axis] - grain.begin[axis];
+  }
+  EXPECT_NEAR(tube.island_fraction * slices, 2.0 * (8 + 2 * 8), 1e-9);
+}
+
 // A rising background, as of drift or beam hardening, makes peaks of its own and grains too large.
 TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
   const auto doubts = [&](Label rise) {

@@ -377,6 +377,15 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                           ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
                           : "darker than the rest. Give " + mention("dark", "true") + "."));
   }
+  // The space between loose grains has -.3 to -.7, dense grains in contact +.1 and more.
+  constexpr double least_fraction = -0.2;
+  if (!is_inverted && segmentation.island_fraction < least_fraction) {
+    doubts.push_back(
+        "In slices the material has more holes than islands, as the space between grains has. If "
+        "the grains are " +
+        (segmentation.is_dark ? "brighter than the rest, leave " + mention("dark", "true") + " out."
+                              : "darker than the rest, give " + mention("dark", "true") + "."));
+  }
   add_peaks(segmentation, is_inverted, doubts);
   if (!is_inverted) add_biases(segmentation, doubts);
   if (segmentation.medians > 1) {
