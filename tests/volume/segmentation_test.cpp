@@ -948,6 +948,40 @@ TEST_F(SegmentationOfAFile, DoubtsThatTheSpaceBetweenDarkGrainsIsGrains) {
   }
 }
 
+// Beam hardening darkens void and grains in the middle. Grains of two minerals are not that.
+TEST_F(SegmentationOfAFile, DoubtsGrainsThatAreDarkerInTheMiddle) {
+  const auto is_told = [&](double darkening, double other_mineral) {
+    made_ = MadeVolume({60, 60, 40});
+    std::mt19937_64 engine(test::announced(11));
+    std::normal_distribution<double> noise(0.0, 4.0);
+    for (std::int32_t z = 0; z < 40; ++z) {
+      for (std::int32_t y = 0; y < 60; ++y) {
+        for (std::int32_t x = 0; x < 60; ++x) {
+          // Balls in a lattice, every third of the other mineral.
+          const Vector3 cell(std::floor(x / 15.0), std::floor(y / 15.0), std::floor(z / 13.4));
+          const Vector3 middle =
+              (cell + Vector3(0.5, 0.5, 0.5)).cwiseProduct(Vector3(15, 15, 13.4));
+          const bool is_grain = (Vector3(x, y, z) - middle).norm() < 6.2;
+          const bool is_other = static_cast<int>(cell.dot(Vector3(1, 2, 4))) % 3 == 0;
+          const double grey = is_grain ? 160.0 + (is_other ? other_mineral : 0.0) : 60.0;
+          const double off = ((x - 30.0) * (x - 30.0) + (y - 30.0) * (y - 30.0)) / 900.0;
+          made_.at(x, y, z) = static_cast<Label>(
+              10.0 * (grey * (1.0 - darkening * std::max(0.0, 1.0 - off)) + noise(engine)));
+        }
+      }
+    }
+    write_made();
+    const std::vector<Sentence> doubts = doubts_of(segmented());
+    return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
+      return doubt.rfind("The space between the grains has grey values from", 0) == 0;
+    });
+  };
+  EXPECT_FALSE(is_told(0.0, 0.0));
+  EXPECT_FALSE(is_told(0.0, 50.0));
+  EXPECT_FALSE(is_told(0.1, 0.0));
+  EXPECT_TRUE(is_told(0.3, 0.0));
+}
+
 TEST_F(SegmentationOfAFile, IslandsAreThoseOfSlices) {
   // Boxes by themselves are an island of each of their slices, along each axis.
   made_ = MadeVolume({40, 30, 26});

@@ -406,15 +406,15 @@ bool leave_out_wall(const std::vector<std::uint8_t>& mask, const VolumeGeometry&
   return true;
 }
 
-/// Returns the grey values of the void in parts of the volume, the least and the largest but for a
-/// sixteenth of them; equal ones if there are few parts.
-std::pair<double, double> space_in_parts(const std::vector<std::uint16_t>& grey,
-                                         const std::vector<std::uint8_t>& mask,
-                                         const std::vector<std::uint8_t>& left_out,
-                                         const VoxelCounts& sizes) {
+/// Parts of a volume, 4 along each axis.
+using GreyParts = std::array<std::vector<std::uint16_t>, 64>;
+
+/// Returns the grey values in the parts, but where `is_left_out(voxel)`.
+template <class IsLeftOut>
+GreyParts greys_in_parts(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
+                         const IsLeftOut& is_left_out) {
   constexpr std::size_t along = 4;
-  constexpr std::size_t fewest_voxels = 64;
-  std::array<std::vector<std::uint16_t>, along * along * along> parts;
+  GreyParts parts;
   const auto at = [&](std::size_t place, std::size_t axis) {
     return place * along / static_cast<std::size_t>(sizes[axis]);
   };
@@ -422,37 +422,83 @@ std::pair<double, double> space_in_parts(const std::vector<std::uint16_t>& grey,
   const auto height = static_cast<std::size_t>(sizes[1]);
   constexpr std::size_t enough = 4'000'000;  // voxels, for memory
   for (std::size_t k = 0; k < grey.size(); k += 1 + grey.size() / enough) {
-    if (mask[k] != 0 || (!left_out.empty() && left_out[k] != 0)) continue;
+    if (is_left_out(k)) continue;
     const std::size_t row = k / width;
     parts[(at(row / height, 2) * along + at(row % height, 1)) * along + at(k % width, 0)].push_back(
         grey[k]);
   }
-  std::vector<double> medians;
+  return parts;
+}
+
+/// Returns a quantile of each part that has enough voxels.
+std::vector<double> quantiles_of(GreyParts& parts, double fraction) {
+  constexpr std::size_t fewest_voxels = 64;
+  std::vector<double> quantiles;
   for (std::vector<std::uint16_t>& part : parts) {
     if (part.size() < fewest_voxels) continue;
-    const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-    std::nth_element(part.begin(), middle, part.end());
-    medians.push_back(*middle);
+    const auto place =
+        part.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(part.size()));
+    std::nth_element(part.begin(), place, part.end());
+    quantiles.push_back(*place);
   }
-  if (medians.size() < along) return {0.0, 0.0};
-  std::sort(medians.begin(), medians.end());
-  const std::size_t few = medians.size() / 16;
-  return {medians[few], medians[medians.size() - 1 - few]};
+  return quantiles;
+}
+
+/// Returns the least and the largest value but for a sixteenth of them; equal ones if there are
+/// few.
+std::pair<double, double> usual_range(std::vector<double> values) {
+  if (values.size() < 4) return {0.0, 0.0};
+  std::sort(values.begin(), values.end());
+  const std::size_t few = values.size() / 16;
+  return {values[few], values[values.size() - 1 - few]};
+}
+
+/// Returns the correlation of two lists.
+double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto count = static_cast<Eigen::Index>(a.size());
+  const Eigen::Map<const Eigen::ArrayXd> x(a.data(), count);
+  const Eigen::Map<const Eigen::ArrayXd> y(b.data(), count);
+  const double spread = std::sqrt((x - x.mean()).square().sum() * (y - y.mean()).square().sum());
+  return spread > 0.0 ? ((x - x.mean()) * (y - y.mean())).sum() / spread : 0.0;
 }
 
 /// Notes the grey values of the void in parts of the volume if they differ by much of the contrast.
+/// Or if both ends of the grey values do, one by more, in the same parts: there beam hardening
+/// darkens grains below the threshold. Several minerals do not change the void, nor do parts
+/// without grains.
 void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
                 const std::vector<std::uint8_t>& left_out, const VoxelCounts& sizes,
                 const std::vector<GreyPeak>& peaks, Segmentation& result) {
   constexpr double much = 0.3;
+  constexpr double much_of_one = 0.5;
+  constexpr double much_of_other = 0.15;
+  constexpr double least_correlation = 0.6;
   const double level = (result.threshold - values.base) / values.step;
   const auto upper = std::find_if(peaks.begin(), peaks.end(), [&](const GreyPeak& peak) {
     return static_cast<double>(peak.value) > level;
   });
   if (upper == peaks.begin() || upper == peaks.end()) return;
   const auto contrast = static_cast<double>(upper->value - (upper - 1)->value);
-  const auto [darkest, brightest] = space_in_parts(values.grey, mask, left_out, sizes);
-  if (!(brightest - darkest > much * contrast)) return;
+  const auto extent = [&](const std::vector<double>& greys) {
+    const auto [least, most] = usual_range(greys);
+    return (most - least) / contrast;
+  };
+  const auto is_outside = [&](std::size_t k) { return !left_out.empty() && left_out[k] != 0; };
+  GreyParts parts = greys_in_parts(values.grey, sizes,
+                                   [&](std::size_t k) { return mask[k] != 0 || is_outside(k); });
+  std::vector<double> space = quantiles_of(parts, 0.5);
+  bool is_noted = extent(space) > much;
+  if (!is_noted) {
+    parts = greys_in_parts(values.grey, sizes, is_outside);
+    const std::vector<double> low = quantiles_of(parts, 0.1);
+    const std::vector<double> high = quantiles_of(parts, 0.9);
+    is_noted = std::max(extent(low), extent(high)) > much_of_one &&
+               std::min(extent(low), extent(high)) > much_of_other &&
+               correlation_of(low, high) > least_correlation;
+    if (is_noted) space = result.is_dark ? high : low;
+  }
+  if (!is_noted) return;
+  const auto [darkest, brightest] = usual_range(space);
   result.darkest_space = values.base + values.step * darkest;
   result.brightest_space = values.base + values.step * brightest;
 }
