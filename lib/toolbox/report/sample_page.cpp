@@ -344,7 +344,7 @@ void add_place(HtmlDocument& page, const std::string& id) {
                 "\"></div>\n");
 }
 
-/// "One, the first" of `name`; nothing to tell apart of a single sample.
+/// Returns " of NAME" for a heading if there are two samples, else nothing.
 std::string of_sample(const SampleReport& report, const ReportedSample& one) {
   return report.samples.size() > 1 ? " of " + one.name : "";
 }
