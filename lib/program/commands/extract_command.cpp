@@ -56,7 +56,8 @@ namespace fs = std::filesystem;
 
 /// Remeshes all taken labels at once.
 int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
-  const std::vector<Label> labels = taken_labels(grains);
+  const std::vector<Label> labels = taken_labels(grains);  // its refusal is a warning of the notes
+  print_notes(grains, use_parts, arguments.quiet);
   Work work(arguments.threads, arguments.quiet);
   const MadeFolder folder(arguments.folder);
   const auto in_folder = [&](const std::string& name) {
@@ -228,9 +229,8 @@ int run(const ExtractArguments& given) {
     grains.add(std::move(bodies));
   } else {
     auto labels = open_grains(arguments.input, arguments.job.volume, arguments.quiet);
-    if (arguments.is_conforming()) taken_labels(*labels);  // before a warning says the same
-    print_notes(*labels, use_parts, arguments.quiet);
     if (arguments.is_conforming()) return run_conforming(arguments, *labels);
+    print_notes(*labels, use_parts, arguments.quiet);
     grains.add(std::make_unique<LabelSource>(arguments.input, std::move(labels)));
   }
   const GrainJob job = make_job(arguments.job, arguments.folder, arguments.shard);

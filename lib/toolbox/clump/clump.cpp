@@ -185,8 +185,7 @@ void add_warnings(ClumpResult& result) {
   append_repair_warnings(result.input, "made a clump", result.warnings);
   const ClumpOptions& options = result.options;
   const auto [error, name] = allowed_error(result);
-  const std::string count =
-      std::to_string(result.spheres.size()) + (result.spheres.size() == 1 ? " sphere" : " spheres");
+  const std::string count = format_count(result.spheres.size(), "sphere");
   if (options.max_error_percent > 0.0 && error > options.max_error_percent) {
     result.warnings.push_back(
         "With " + count + " the " + name + format_number(error, 3) + " %, more than the allowed " +

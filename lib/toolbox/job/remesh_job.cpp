@@ -199,20 +199,28 @@ CensusStates label_states(const GrainJob& job) {
   return states.count("written") > 0 ? CensusStates() : states;
 }
 
+/// Returns the shapes of the grains of a folder; no table if none was described.
+SampleTables shapes_of(const JobFolder& folder) {
+  SampleTables shapes;
+  try {
+    shapes.tables.push_back(read_grain_table(folder.file("shape", ".csv")));
+    shapes.files.push_back(folder.file("shape", ".csv"));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
+  }
+  return shapes;
+}
+
 /// Returns the batch of a folder, with the statistics of its scans, or else its remeshes, if at
 /// least two were described.
-SampleReport report_of(const JobFolder& folder, const Execution& execution) {
+SampleReport report_of(const JobFolder& folder, const SampleTables& shapes,
+                       const Execution& execution) {
   SampleReport report;
-  const std::string shapes = folder.file("shape", ".csv");
-  std::error_code error;
-  if (std::filesystem::exists(shapes, error)) {
+  if (!shapes.tables.empty()) {
     try {
-      SampleTables sample;
-      sample.tables.push_back(read_grain_table(shapes));
-      sample.files = {shapes};
-      add_sample(report, "", sample, {}, mark_option.minimum, execution);
-    } catch (const Error& refused) {
-      if (refused.code() != ErrorCode::InvalidInput) throw;  // fewer than two grains
+      add_sample(report, "", shapes, {}, mark_option.minimum, execution);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::InvalidInput) throw;  // fewer than two grains
     }
   }
   if (report.samples.empty()) report.samples.emplace_back();
@@ -276,8 +284,12 @@ std::vector<std::string> write_summaries(const GrainJob& job, const Execution& e
   std::vector<std::string> lines;
   if (job.shard.count > 1) return lines;
   const CensusStates labels = label_states(job);
+  const auto described = std::find_if(job.tables.begin(), job.tables.end(),
+                                      [](const JobTable& one) { return one.name == "shape"; });
+  SampleTables shapes;
   for (const JobFolder& folder : folders_of(job)) {
-    SampleReport report = report_of(folder, execution);
+    shapes = described == job.tables.end() ? SampleTables() : shapes_of(folder);
+    SampleReport report = report_of(folder, shapes, execution);
     SampleSummary& summary = *report.samples.front().batch;
     summary.labels = labels;
     for (GrainDistance& one : summary.farthest) one.file = folder.file_of(one.grain);
@@ -290,11 +302,11 @@ std::vector<std::string> write_summaries(const GrainJob& job, const Execution& e
     }
     lines.insert(lines.end(), told.begin(), told.end());
   }
-  const bool has_voxels =
-      std::any_of(job.tables.begin(), job.tables.end(), [](const JobTable& one) {
-        return one.name == "shape" && one.header.find("resolution.") != std::string::npos;
-      });
-  if (has_voxels) append_voxel_lines(folders_of(job).back(), lines);  // of the most nodes
+  // With the most nodes.
+  if (!shapes.tables.empty() && described->header.find("resolution.") != std::string::npos) {
+    const std::vector<std::string> of_voxels = voxel_lines(shapes.tables.front());
+    lines.insert(lines.end(), of_voxels.begin(), of_voxels.end());
+  }
   return lines;
 }
 

@@ -526,7 +526,7 @@ std::string sample_html(const SampleReport& report, const Execution& execution) 
     title = "Samples " + first.name + " and " + report.samples.back().name;
   } else if (first.name.empty()) {
     const std::size_t count = first.batch ? first.batch->grains : first.sample.grains.size();
-    title = "A sample of " + std::to_string(count) + (count == 1 ? " grain" : " grains");
+    title = "A sample of " + format_count(count, "grain");
   }
   HtmlDocument page(title);
   page.add_html(page_style);

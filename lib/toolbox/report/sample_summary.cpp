@@ -318,7 +318,7 @@ std::string summary_json(const SampleSummary& summary) {
 }
 
 std::string count_line(const SampleSummary& summary) {
-  return std::to_string(summary.grains) + (summary.grains == 1 ? " grain: " : " grains: ") +
+  return format_count(summary.grains, "grain") + ": " +
          std::to_string(summary.grains - summary.failed) + " remeshed, " +
          std::to_string(summary.with_warnings) + " of them with warnings, " +
          std::to_string(summary.failed) + " failed";

@@ -43,10 +43,6 @@ bool is_pose(const std::string& name) {
   return starts_with(name, "centroid_") || starts_with(name, "principal_axes_");
 }
 
-std::string counted(std::size_t count, const std::string& grains) {
-  return std::to_string(count) + (count == 1 ? " grain " : " grains ") + grains;
-}
-
 /// Returns the columns of a mesh, as indices into the table.
 std::vector<std::size_t> places_of(const GrainTable& table, const std::string& mesh) {
   std::vector<std::size_t> places;
@@ -214,9 +210,10 @@ void note_few_voxels(GrainSample& sample) {
     if (!(median < least_trusted_across)) continue;
     const std::string unit = sample.size_unit.empty() ? "" : " " + sample.size_unit;
     sample.notes.push_back(
-        counted(end - begin, "of size ") + format_number(known[begin].first, 3) + " to " +
-        format_number(known[end - 1].first, 3) + unit + " have " + format_number(median, 3) +
-        " voxels across (median). Below " + format_number(least_trusted_across, 3) +
+        format_count(end - begin, "grain") + " of size " + format_number(known[begin].first, 3) +
+        " to " + format_number(known[end - 1].first, 3) + unit + " have " +
+        format_number(median, 3) + " voxels across (median). Below " +
+        format_number(least_trusted_across, 3) +
         " a trend with size may be a trend of the voxels. Leave out these grains, or scan them "
         "with smaller voxels.");
   }
@@ -252,7 +249,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   }
   const std::size_t without = table.grains.size() - kept.size();
   if (without > 0) {
-    sample.notes.push_back(counted(without, "without a size left out."));
+    sample.notes.push_back(format_count(without, "grain") + " without a size left out.");
   }
   const auto volume = find(sample, "volume");
   if (!volume && (options.density || !table.find("mass"))) {
@@ -275,12 +272,12 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     return std::isfinite(mass) && mass > 0.0;
   });
   if (weighed != kept.end()) {
-    sample.notes.push_back(counted(static_cast<std::size_t>(kept.end() - weighed),
-                                   "without a mass (volume, density) left out."));
+    sample.notes.push_back(format_count(static_cast<std::size_t>(kept.end() - weighed), "grain") +
+                           " without a mass (volume, density) left out.");
     kept.erase(weighed, kept.end());
   }
   if (kept.size() < 2) {
-    refuse("The table has " + counted(kept.size(), "with a size and a mass") +
+    refuse("The table has " + format_count(kept.size(), "grain") + " with a size and a mass" +
            ". Statistics need two or more.");
   }
   const auto rows = static_cast<Eigen::Index>(kept.size());

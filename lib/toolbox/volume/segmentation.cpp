@@ -453,18 +453,9 @@ std::pair<double, double> usual_range(std::vector<double> values) {
   return {values[few], values[values.size() - 1 - few]};
 }
 
-/// Returns the correlation of two lists.
-double correlation_of(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto count = static_cast<Eigen::Index>(a.size());
-  const Eigen::Map<const Eigen::ArrayXd> x(a.data(), count);
-  const Eigen::Map<const Eigen::ArrayXd> y(b.data(), count);
-  const double spread = std::sqrt((x - x.mean()).square().sum() * (y - y.mean()).square().sum());
-  return spread > 0.0 ? ((x - x.mean()) * (y - y.mean())).sum() / spread : 0.0;
-}
-
 /// Notes the grey values of the void in parts of the volume if they differ by much of the contrast.
-/// Or if both ends of the grey values do, one by more, in the same parts: there beam hardening
-/// darkens grains below the threshold. Several minerals do not change the void, nor do parts
+/// Or if both ends of the grey values do, one by more: then beam hardening darkens grains below the
+/// threshold. Several minerals do not change the void, nor do parts
 /// without grains.
 void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
                 const std::vector<std::uint8_t>& left_out, const VoxelCounts& sizes,
@@ -472,7 +463,6 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   constexpr double much = 0.3;
   constexpr double much_of_one = 0.5;
   constexpr double much_of_other = 0.15;
-  constexpr double least_correlation = 0.6;
   const double level = (result.threshold - values.base) / values.step;
   const auto upper = std::find_if(peaks.begin(), peaks.end(), [&](const GreyPeak& peak) {
     return static_cast<double>(peak.value) > level;
@@ -493,8 +483,7 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
     const std::vector<double> low = quantiles_of(parts, 0.1);
     const std::vector<double> high = quantiles_of(parts, 0.9);
     is_noted = std::max(extent(low), extent(high)) > much_of_one &&
-               std::min(extent(low), extent(high)) > much_of_other &&
-               correlation_of(low, high) > least_correlation;
+               std::min(extent(low), extent(high)) > much_of_other;
     if (is_noted) space = result.is_dark ? high : low;
   }
   if (!is_noted) return;
@@ -717,8 +706,9 @@ std::vector<std::uint8_t> material_of_mask(LabelVolume& scan, const GreyRange& r
 }
 
 /// Returns islands of a mask minus holes in them, over all slices along the three axes: a quarter
-/// of the squares of 2 x 2 voxels with one voxel of the mask, minus those with three (Euler numbers
-/// of sections; Ohser and Muecklich 2000, Statistical Analysis of Microstructures, 3.2).
+/// of the squares of 2 x 2 voxels with one voxel of the mask, minus those with three. It is the
+/// mean of the Euler numbers for neighbours at edges and at corners (Gray 1971, IEEE Trans. Comput.
+/// C-20, 551-561).
 double islands_of(const std::vector<std::uint8_t>& mask, const VoxelCounts& counts,
                   const Execution& execution) {
   const auto width = static_cast<std::size_t>(counts[0]);

@@ -33,7 +33,7 @@ class HtmlDocument {
 
   /// Adds rows of cells. The first row is the head.
   void add_rows(const std::vector<std::vector<std::string>>& rows, RowKind kind = RowKind::Numbers);
-  /// Adds rows of which only the line `summary` is seen until it is clicked or the page is printed.
+  /// Adds rows of which only the line `summary` is seen until it is clicked.
   void add_collapsed_rows(const std::string& summary,
                           const std::vector<std::vector<std::string>>& rows,
                           RowKind kind = RowKind::Numbers);
