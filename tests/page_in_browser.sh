@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Shows a report's page in headless Chromium: on a telephone (400 pixels wide), in a wide window
 # (1400) and printed. Fails if the page is wider than a window, a picture does not load, the pictures do
-# not turn where the browser has WebGL, or a printed page ends with a heading.
+# not turn where the browser has WebGL, or a printed page ends with a heading. Then the page of a batch.
 #   tests/page_in_browser.sh PROGRAM FOLDER
 # PROGRAM is wscvt. Leaves the page, the pictures page-400.png and page-1400.png and page.pdf in FOLDER.
 # Needs chromium and poppler-utils; tests/run_all.sh page installs them and runs this.
@@ -74,4 +74,31 @@ if grep -n -x -F -f "$home/headings" "$home/last_lines"; then
   echo "The page above ends with a heading." >&2
   exit 1
 fi
+# The page of a batch, narrow: its script draws, tells the day of the file, and opens all tables for print.
+"$program" batch "$meshes" -q -o "$folder/batch" -n 100 > "$home/log"
+touch -d 2026-01-02 "$folder/batch/summary.html"
+cat > "$home/frame.html" << END
+<body style="margin: 0"><iframe src="file://$folder/batch/summary.html" width="400" height="9000" style="border: 0"
+  onload="document.title = 'asked: ' + this.contentDocument.documentElement.scrollWidth;"></iframe></body>
+END
+wide=$(browser 1400 1000 --allow-file-access-from-files --dump-dom "file://$home/frame.html" |
+  grep -o 'asked: [0-9]*' | head -n 1 | tr -dc 0-9)
+[ "$wide" -le 400 ] || {
+  echo "The page of a batch is $wide pixels wide in a frame of 400." >&2
+  exit 1
+}
+browser 1400 1000 --virtual-time-budget=4000 --dump-dom "file://$folder/batch/summary.html" > "$home/drawn.html"
+browser 1400 1000 --no-pdf-header-footer --print-to-pdf="$folder/batch.pdf" "file://$folder/batch/summary.html"
+pdftotext -layout "$folder/batch.pdf" "$home/batch.txt"
+for words in 'File of 2026-01-02.' 'Form after Zingg' '<details><summary>All'; do
+  grep -q "$words" "$home/drawn.html" || {
+    echo "The page of a batch has no \"$words\"." >&2
+    exit 1
+  }
+done
+grep -q 'Kong-Fonseca' "$home/batch.txt" || {
+  echo "In print, the page of a batch leaves out its collapsed tables." >&2
+  exit 1
+}
+echo "The page of a batch is $wide pixels wide in a frame of 400, and its tables are printed."
 echo "The page and its pictures are in $folder."

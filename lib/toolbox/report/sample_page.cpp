@@ -41,7 +41,8 @@ constexpr std::size_t most_open_rows = 16;
 using ColumnFilter = bool (*)(const std::string& column);
 
 constexpr const char* page_style =
-    "<style>select, input { font: inherit; } input { width: 5em; } figcaption button { "
+    "<style>select, input { font: inherit; } select { max-width: 100%; } input { width: 5em; } "
+    "figcaption button { "
     "margin-left: 0.5em; font-size: 0.9em; } @media print { button, select, input { display: none; "
     "} }</style>\n";
 
