@@ -722,6 +722,23 @@ TEST(SampleReportNumbers, OfTheDescriptorsAreThoseOfTheGrains) {
   }
 }
 
+TEST(SampleReportNumbers, OfGrainsThatAreAllEqualAreNoDistanceInDeviations) {
+  SampleReport report = report_of(23, true);
+  GrainSample& first = report.samples[0].sample;
+  first.values.col(0).setConstant(0.1);
+  report.comparison =
+      compare_samples(first, report.samples[1].sample, report.options, Execution(1));
+  const std::string name = first.columns[0].name;
+  const test::Rows page = test::table_named(sample_html(report, Execution(1)), "descriptor");
+  ASSERT_EQ(report.comparison[1].column.name, name);
+  EXPECT_EQ(report.comparison[1].deviation, 0.0);
+  EXPECT_GT(report.comparison[1].by_number.wasserstein, 0.0);
+  for (const std::size_t cell : {3, 7}) EXPECT_EQ(page[2][cell], "-") << page[2][0];
+  for (const std::string& line : sample_lines(report)) {
+    EXPECT_EQ(line.find(" inf"), std::string::npos) << line;
+  }
+}
+
 TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
   const SampleReport report = report_of(23, true);
   const test::Rows page = test::table_named(sample_html(report, Execution(1)), "descriptor");

@@ -607,6 +607,8 @@ TEST(Distribution, OfEqualWeightsIsTheOneByNumber) {
   EXPECT_NEAR(one.mean(), 5.25, 1e-15);
   // The squares add up to 34.75, over n - 1.
   EXPECT_NEAR(one.deviation(), std::sqrt(34.75 / 3.0), 1e-14);
+  // Their mean, .3 / 3, is not .1.
+  EXPECT_EQ(Distribution(vector_of({0.1, 0.1, 0.1})).deviation(), 0.0);
 }
 
 TEST(Distribution, AGrainOfTwiceTheWeightCountsAsTwo) {

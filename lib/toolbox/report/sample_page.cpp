@@ -282,7 +282,7 @@ std::vector<std::vector<std::string>> comparison_table(const SampleReport& repor
     std::vector<std::string> cells = {heading_in_words(row.column)};
     for (const SampleDistance& d : {row.by_number, row.by_mass}) {
       for (const double value :
-           {d.kolmogorov, d.kolmogorov_p, d.wasserstein / row.deviation, d.wasserstein_p}) {
+           {d.kolmogorov, d.kolmogorov_p, row.in_deviations(d), d.wasserstein_p}) {
         cells.push_back(format_number(value, 3));
       }
     }

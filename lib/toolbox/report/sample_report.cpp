@@ -120,7 +120,7 @@ Rows comparison_rows(const SampleReport& report, const IsShown& is_shown) {
     if (row.column.name != "size" && !is_shown(row.column.name)) continue;
     const SampleDistance& d = row.by_number;
     rows.push_back({row.column.name, short_number(d.kolmogorov), short_number(d.kolmogorov_p),
-                    short_number(d.wasserstein / row.deviation), short_number(d.wasserstein_p)});
+                    short_number(row.in_deviations(d)), short_number(d.wasserstein_p)});
   }
   return rows;
 }

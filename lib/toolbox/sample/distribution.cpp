@@ -50,6 +50,8 @@ double Distribution::mean() const {
 
 double Distribution::deviation() const {
   if (size() < 2) return no_number;
+  // The mean of equal values may differ from them by rounding.
+  if (values_.front() == values_.back()) return 0.0;
   const double middle = mean();
   double total = 0.0;
   double squares = 0.0;

@@ -250,6 +250,10 @@ std::vector<ColumnPair> shared_columns(const GrainSample& one, const GrainSample
 
 }  // namespace
 
+double ColumnComparison::in_deviations(const SampleDistance& distance) const {
+  return deviation > 0.0 ? distance.wasserstein / deviation : no_comparison;
+}
+
 SampleDistance distance_between(const Distribution& one, const Distribution& other) {
   const auto mapped = [](const std::vector<double>& numbers) {
     return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(

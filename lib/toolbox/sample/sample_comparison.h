@@ -26,6 +26,10 @@ struct ColumnComparison {
   double deviation = 0.0;  ///< of the first sample by number, as a scale for the distances
   SampleDistance by_number;
   SampleDistance by_mass;
+
+  /// Returns a Wasserstein distance over the deviation, NaN if all grains of the first sample are
+  /// equal.
+  double in_deviations(const SampleDistance& distance) const;
 };
 
 /// Computes both distances (Kolmogorov 1933, Smirnov 1939; Wasserstein's of order 1); p is NaN. NaN
