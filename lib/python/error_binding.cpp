@@ -72,6 +72,8 @@ void bind_error(py::module_& module) {
   types.input = error_subclass(
       module, "InputError", types.error, PyExc_ValueError,
       "A mesh, the content of a file or an option is not usable. Also a ValueError.");
+  // Those that Python raises itself have it too.
+  types.input.attr("code") = name_of(ErrorCode::InvalidInput);
   types.file = error_subclass(module, "FileError", types.error, PyExc_OSError,
                               "A file could not be opened, read or written. Also an OSError.");
   types.missing =

@@ -123,7 +123,7 @@ def test_a_mesh_may_be_a_path_or_an_object(scan, tmp_path):
     vertices, faces = scan
     expected = wscvt.remesh(vertices, faces, nodes=60)
     path = MESHES / "sand_7228.ply"
-    for result in [wscvt.remesh(vertices, faces, 60), wscvt.remesh(path, 60),
+    for result in [wscvt.remesh(vertices, faces, 60), wscvt.remesh(path, 60), wscvt.remesh(scan, 60),
                    wscvt.remesh(str(path), nodes=60), wscvt.remesh(TrimeshLike(*scan), 60),
                    wscvt.remesh(PyVistaLike(*scan), np.int64(60))]:
         np.testing.assert_array_equal(result.vertices, expected.vertices)
@@ -207,6 +207,11 @@ def test_the_stub_has_all_options_with_their_types(function):
         assert f"{name}:" in signature
 
 
+def masked(numbers):
+    """An array without its first number, as from netCDF4."""
+    return np.ma.masked_array(numbers, np.arange(numbers.size).reshape(numbers.shape) == 0)
+
+
 def test_what_is_refused(scan):
     vertices, faces = scan
     for call, code, part in [
@@ -218,6 +223,12 @@ def test_what_is_refused(scan):
             (lambda: wscvt.remesh(vertices, faces.ravel()), "invalid-input", "regular_faces"),
             (lambda: wscvt.remesh(vertices * np.nan, faces), "invalid-input", "finite"),
             (lambda: wscvt.remesh(vertices, faces, threads=-1), "invalid-input", "thread"),
+            (lambda: wscvt.remesh(masked(vertices), faces), "invalid-input", "vertices.filled(VALUE)"),
+            (lambda: wscvt.extract(masked(np.ones((5, 5, 5), np.uint8))), "invalid-input", "labels.filled(VALUE)"),
+            (lambda: wscvt.remesh(MESHES, 60), "invalid-input", "wscvt.batch"),
+            (lambda: wscvt.tetrahedra([]), "invalid-input", "no bodies"),
+            (lambda: wscvt.extract(np.uint8(3)), "invalid-input", "one number"),
+            (lambda: wscvt.extract(np.ones((5, 5), np.uint8)), "invalid-input", "an array of 5 x 5"),
             (lambda: wscvt.read_mesh("no.ply"), "input-output", "no.ply"),
             (lambda: wscvt.create("cube"), "invalid-input", "superellipsoid")]:
         with pytest.raises(wscvt.Error) as refused:
@@ -231,6 +242,7 @@ def test_what_is_refused(scan):
                        (lambda: wscvt.remesh(vertices, faces, nodes="many"), "many"),
                        (lambda: wscvt.remesh(vertices, faces, nodes=10**30), "4 to 1000000"),
                        (lambda: wscvt.remesh(vertices, faces.astype(float)), "whole numbers"),
+                       (lambda: wscvt.batch([scan], 60, output="out"), "grains are files"),
                        (lambda: wscvt.remesh(vertices, faces, weighting=3), "wscvt-c")]:
         with pytest.raises(TypeError, match=part):
             call()
@@ -763,6 +775,8 @@ def test_a_file_is_not_replaced_by_what_cannot_be_read(scan, tmp_path):
     for name in ("grain id", "grain\nid", ""):
         with pytest.raises(wscvt.Error, match="name of PLY"):
             wscvt.write_mesh(tmp_path / "w.ply", *scan, vertex_attributes={name: np.zeros(len(scan[0]))})
+    with pytest.raises(wscvt.Error, match="uses for the mesh"):
+        wscvt.write_mesh(tmp_path / "w.ply", *scan, vertex_attributes={"x": np.zeros(len(scan[0]))})
     for name in ("w.stl", "w.ascii.stl"):
         with pytest.raises(wscvt.Error, match="only triangles"):
             wscvt.write_mesh(tmp_path / name, scan[0])
@@ -772,8 +786,9 @@ def test_a_file_is_not_replaced_by_what_cannot_be_read(scan, tmp_path):
 def test_a_batch_has_each_number_of_nodes_once(scan, tmp_path):
     wscvt.write_mesh(tmp_path / "a.ply", *scan)
     for nodes, said in (([60, 60], "twice"), ([], "is empty")):
-        with pytest.raises(wscvt.Error, match=said):
+        with pytest.raises(wscvt.Error, match=said) as refused:
             wscvt.batch(tmp_path / "a.ply", nodes, output=tmp_path / "out")
+        assert refused.value.code == "invalid-input"
         assert not (tmp_path / "out").exists()
 
 

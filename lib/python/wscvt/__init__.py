@@ -6,8 +6,8 @@
 >>> result.vertices.shape, result.faces.shape
 ((1000, 3), (1996, 3))
 
-A mesh is two arrays (vertices, faces), the path of a file, or a mesh of trimesh or PyVista. Lengths
-are in the unit of the mesh. The stub next to this file lists the arguments, results and errors of
+A mesh is two arrays (vertices, faces) or a pair of them, the path of a file, or a mesh of trimesh or
+PyVista. Lengths are in the unit of the mesh. The stub next to this file lists the arguments, results and errors of
 each function.
 """
 import collections
@@ -42,6 +42,10 @@ def _call(function, /, *arguments, **options):
     for option in options:
         if option not in known and "**kwargs" not in signature:
             raise TypeError(f"There is no option {option} of {name}. help(wscvt.{name}) lists the options.")
+    for argument, value in [*zip(known, arguments), *options.items()]:
+        if numpy.ma.is_masked(value):
+            raise InputError(f"The argument {argument} is a masked array, whose mask would be lost. Give "
+                             f"{argument}.filled(VALUE), with the value for what is masked.")
     try:
         return function(*arguments, **options)
     except TypeError as error:
@@ -63,7 +67,12 @@ def _arrays(mesh, faces=None):
     """Returns the vertices and faces of any kind of mesh."""
     if faces is not None:
         return mesh, faces
+    if isinstance(mesh, tuple) and len(mesh) == 2:
+        return mesh
     if isinstance(mesh, (str, os.PathLike)):
+        if os.path.isdir(mesh):
+            raise InputError(f'"{os.fspath(mesh)}" is a folder, but one mesh is needed. wscvt.batch takes '
+                             "a folder.")
         return read_mesh(mesh)
     if hasattr(mesh, "regular_faces"):  # PyVista
         return mesh.points, mesh.regular_faces
@@ -77,7 +86,8 @@ def remesh(vertices, faces=None, nodes=None, **options):
 
     remesh("scan.ply", 500), remesh(mesh, 500), remesh(vertices, faces, nodes=500)
 
-    vertices: (n, 3) numbers in any unit of length, a path, or a mesh of trimesh or PyVista.
+    vertices: (n, 3) numbers in any unit of length, a path, a pair (vertices, faces), or a mesh of
+        trimesh or PyVista.
     faces: (m, 3) whole numbers, counted from 0, counter-clockwise from outside. None with
         points=True, for points without faces.
     nodes: N, 4 to 1000000; 1000 by default.
@@ -186,8 +196,10 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
 
 def _inputs(scans):
     """Returns the names of files for a job."""
-    is_one = isinstance(scans, (str, os.PathLike))
-    return [os.fspath(scan) for scan in ([scans] if is_one else scans)]
+    names = [scans] if isinstance(scans, (str, os.PathLike)) else list(scans)
+    if not all(isinstance(name, (str, os.PathLike)) for name in names):
+        raise TypeError("With an output folder, grains are files. Give their names, or leave output out.")
+    return [os.fspath(name) for name in names]
 
 
 def _batch(scans, nodes, threads, options):
@@ -195,9 +207,8 @@ def _batch(scans, nodes, threads, options):
     is_left = threading.Event()
 
     def work(scan):
-        vertices, faces = scan if isinstance(scan, tuple) else (scan, None)
         try:
-            return remesh(vertices, faces, nodes, threads=1,
+            return remesh(scan, None, nodes, threads=1,
                           progress=lambda fraction, stage: not is_left.is_set(), **options)
         except Error as error:
             return error
@@ -367,7 +378,7 @@ def describe(vertices, faces=None, reference=None, **options):
     The dictionary is the JSON report of "wscvt describe". Raises Error, and TypeError for a
     reference of another type.
     """
-    if reference is not None and not isinstance(reference, tuple):
+    if reference is not None:
         mesh = _arrays(reference)
         reference = reference if mesh[1] is None else mesh
     return _call(_wscvt.describe, *_arrays(vertices, faces), reference, **options)
@@ -580,6 +591,8 @@ def tetrahedra(vertices, faces=None, **options):
         is_packing = isinstance(vertices, dict)
         names = list(vertices) if is_packing else list(range(1, len(vertices) + 1))
         meshes = [tuple(pair) for pair in (vertices.values() if is_packing else vertices)]
+        if not meshes:
+            raise InputError("There are no bodies. Give one or more.")
         result = _call(_wscvt.tetrahedra_of_bodies, meshes, "grain" if is_packing else "fragment",
                        [str(name) for name in names], **options)
         result["bodies"] = numpy.array(names)[result["bodies"]]
@@ -621,10 +634,8 @@ def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *
     becomes 0 and 1. Warns of missing pictures. Raises Error.
     """
     if vertex_attributes is None and face_attributes is None:
-        pair = mesh if isinstance(mesh, tuple) else _arrays(mesh)
-        return _wscvt.carry_attributes_of_file(os.fspath(scan), pair, threads=threads)
-    pairs = [m if isinstance(m, tuple) else _arrays(m) for m in (scan, mesh)]
-    return _wscvt.carry_attributes(*pairs, vertex_attributes or {}, face_attributes or {}, threads=threads)
+        return _wscvt.carry_attributes_of_file(os.fspath(scan), _arrays(mesh), threads=threads)
+    return _wscvt.carry_attributes(_arrays(scan), _arrays(mesh), vertex_attributes or {}, face_attributes or {}, threads=threads)
 
 
 for _function in (read_mesh, write_mesh):
@@ -672,8 +683,6 @@ def grow(grains, count, *, nodes=500, degree=20, seed=1, threads=0, progress=Non
     for grain in grains:
         if isinstance(grain, numpy.ndarray) and grain.ndim == 1:
             real.append(grain.tolist())
-        elif isinstance(grain, tuple):
-            real.append(grain)
         else:
             real.append(tuple(_arrays(grain)))
     rows = _wscvt.grow_of(real, count, nodes, degree, seed, threads, progress)

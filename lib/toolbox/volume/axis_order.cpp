@@ -65,8 +65,9 @@ void refuse_channels_inside(const std::vector<std::int64_t>& counts, const std::
 ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice,
                              const std::string& path) {
   if (shape.counts.size() < 3) {
-    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
-                            ", but a volume needs three dimensions.");
+    const std::string held =
+        shape.counts.empty() ? "one number" : "an array of " + text_of(shape.counts);
+    refuse_volume(path, "holds " + held + ", but a volume needs three dimensions.");
   }
   if (shape.roles.empty()) refuse_channels_inside(shape.counts, path);
   const std::vector<int> roles = shape.roles.empty() ? usual_roles(shape.counts) : shape.roles;

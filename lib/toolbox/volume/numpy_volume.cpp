@@ -107,7 +107,8 @@ VoxelType numpy_type_of(const std::string& text, const std::string& path) {
   const bool is_float = kind == "f4" || kind == "f8";
   if (!is_whole && !is_float && kind != "b1") {
     refuse_volume(path, "has voxels of NumPy's type " + in_quotes(text) +
-                            ", but labels are whole numbers. Save it as uint16 or uint32.");
+                            ", which cannot be read. Save labels as uint16 or uint32, grey values "
+                            "as float32.");
   }
   return {kind[1] - '0', is_float || kind[0] == 'i', is_float, has_order && text.front() == '>'};
 }

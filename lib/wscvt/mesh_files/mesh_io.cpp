@@ -410,6 +410,10 @@ void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
         refuse("The attribute " + in_quotes(name) +
                " does not have a name of PLY. Give one without blanks.");
       }
+      if (name == "x" || name == "y" || name == "z" || name == "vertex_indices") {
+        refuse("The attribute " + in_quotes(name) +
+               " has a name that PLY uses for the mesh. Give another one.");
+      }
       if (attribute.values.size() == count) continue;
       refuse("The attribute \"" + attribute.name + "\" has " +
              std::to_string(attribute.values.size()) + " values for " + std::to_string(count) +

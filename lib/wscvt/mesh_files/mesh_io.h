@@ -88,7 +88,7 @@ bool holds_attributes(const std::string& path);
 
 /// Writes a mesh with the numbers at its vertices and faces; only PLY keeps them. Rounds numbers of
 /// an integer type. Throws as the function above, and Error(InvalidInput) if the number of values
-/// differs from the number of vertices or faces.
+/// differs from the number of vertices or faces, or a name cannot be one of PLY.
 void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes, const std::string& path);
 
 }  // namespace wscvt
