@@ -52,6 +52,25 @@ class Execution {
     return sum;
   }
 
+  /// Calls body(index) for every index below `count`, as parallel_for does for blocks.
+  template <class Body>
+  void parallel_for_each(std::size_t count, std::size_t block, const Body& body) const {
+    parallel_for(count, block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t index = begin; index < end; ++index) body(index);
+    });
+  }
+
+  /// As parallel_sum, where add(index, sum) adds the part of one index to the sum of its block.
+  template <class Value, class Add>
+  Value parallel_sum_of(std::size_t count, std::size_t block, const Value& zero,
+                        const Add& add) const {
+    return parallel_sum(count, block, zero, [&](std::size_t begin, std::size_t end) {
+      Value sum = zero;
+      for (std::size_t index = begin; index < end; ++index) add(index, sum);
+      return sum;
+    });
+  }
+
  private:
   class Arena;
   std::shared_ptr<Arena> arena_;

@@ -172,15 +172,13 @@ std::vector<std::size_t> nearest_points(const std::vector<Vector3>& scan,
                                         const Execution& execution) {
   constexpr std::size_t block = 16;
   std::vector<std::size_t> nearest(points.size(), 0);
-  execution.parallel_for(points.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < scan.size(); ++k) {
-        const double square = (scan[k] - points[i]).squaredNorm();
-        if (!(square < least)) continue;
-        least = square;
-        nearest[i] = k;
-      }
+  execution.parallel_for_each(points.size(), block, [&](std::size_t i) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < scan.size(); ++k) {
+      const double square = (scan[k] - points[i]).squaredNorm();
+      if (!(square < least)) continue;
+      least = square;
+      nearest[i] = k;
     }
   });
   return nearest;

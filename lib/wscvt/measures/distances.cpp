@@ -119,24 +119,20 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
   if (grid.is_crowded()) return {};
   // Each part has all squares, so there are few parts.
   const std::size_t faces_a_part = std::max<std::size_t>(1 << 14, mesh.triangles.size() / 16 + 1);
-  bounds = execution.parallel_sum(
-      mesh.triangles.size(), faces_a_part, bounds, [&](std::size_t begin, std::size_t end) {
-        SmallestSquares part = bounds;
-        for (std::size_t f = begin; f < end; ++f) {
-          const auto& [a, b, c] = mesh.triangles[f];
-          const std::array<Vector3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
-          const BoxGrid::Box box = box_of(corners);
-          grid.visit(box, [&](std::int32_t ball) {
-            const Vector3& point = points[ball];
-            double& smallest = part.values[ball];
-            if (box.squaredExteriorDistance(point) >= smallest ||
-                !(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) {
-              return;
-            }
-            smallest = std::min(smallest, squared_distance_to_face(corners, point));
-          });
-        }
-        return part;
+  bounds = execution.parallel_sum_of(
+      mesh.triangles.size(), faces_a_part, bounds, [&](std::size_t f, SmallestSquares& part) {
+        const auto& [a, b, c] = mesh.triangles[f];
+        const std::array<Vector3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+        const BoxGrid::Box box = box_of(corners);
+        grid.visit(box, [&](std::int32_t ball) {
+          const Vector3& point = points[ball];
+          double& smallest = part.values[ball];
+          if (box.squaredExteriorDistance(point) >= smallest ||
+              !(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) {
+            return;
+          }
+          smallest = std::min(smallest, squared_distance_to_face(corners, point));
+        });
       });
   std::vector<double> distances;
   distances.reserve(points.size());
@@ -174,17 +170,13 @@ struct DistanceSums {
 };
 
 DistanceSums sums_of(const std::vector<double>& distances, const Execution& execution) {
-  return execution.parallel_sum(distances.size(), distance_block, DistanceSums(),
-                                [&](std::size_t begin, std::size_t end) {
-                                  DistanceSums part;
-                                  for (std::size_t i = begin; i < end; ++i) {
-                                    const double d = distances[i];
-                                    part.sum += d;
-                                    part.squares += d * d;
-                                    part.maximum = std::max(part.maximum, d);
-                                  }
-                                  return part;
-                                });
+  return execution.parallel_sum_of(distances.size(), distance_block, DistanceSums(),
+                                   [&](std::size_t i, DistanceSums& part) {
+                                     const double d = distances[i];
+                                     part.sum += d;
+                                     part.squares += d * d;
+                                     part.maximum = std::max(part.maximum, d);
+                                   });
 }
 
 OneSidedDistance of_samples(const std::vector<double>& distances, const Execution& execution) {

@@ -273,25 +273,21 @@ double mean_curvature_integral(const IndexedMesh& mesh, const Execution& executi
                        .stableNormalized());
   };
   constexpr std::size_t block = 4096;
-  return execution.parallel_sum(
-      mesh.triangles.size(), block, 0.0, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Vector3 normal = normal_of(f);
-          for (std::size_t k = 0; k < 3; ++k) {
-            const std::int32_t opposite = edges.opposite[3 * f + k];
-            if (opposite < 0) continue;
-            const Vector3 other = normal_of(face_of(opposite));
-            const Triangle& t = mesh.triangles[f];
-            const Vector3 edge = mesh.points[index(t[following(k)])] - mesh.points[index(t[k])];
-            const double length = edge.norm();
-            if (!(length > 0.0)) continue;
-            const double sine = normal.cross(other).dot(edge) / length;
-            // Each edge is visited twice, once from either side.
-            part += 0.25 * length * portable::atan2(sine, normal.dot(other));
-          }
+  return execution.parallel_sum_of(
+      mesh.triangles.size(), block, 0.0, [&](std::size_t f, double& part) {
+        const Vector3 normal = normal_of(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::int32_t opposite = edges.opposite[3 * f + k];
+          if (opposite < 0) continue;
+          const Vector3 other = normal_of(face_of(opposite));
+          const Triangle& t = mesh.triangles[f];
+          const Vector3 edge = mesh.points[index(t[following(k)])] - mesh.points[index(t[k])];
+          const double length = edge.norm();
+          if (!(length > 0.0)) continue;
+          const double sine = normal.cross(other).dot(edge) / length;
+          // Each edge is visited twice, once from either side.
+          part += 0.25 * length * portable::atan2(sine, normal.dot(other));
         }
-        return part;
       });
 }
 

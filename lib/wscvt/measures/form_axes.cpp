@@ -239,18 +239,14 @@ FormRatios form_ratios(const FormAxes& axes) {
 OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& execution) {
   constexpr std::size_t block_size = 8192;
   // The trace of the sum is the area.
-  const Eigen::Matrix3d sum = execution.parallel_sum(
+  const Eigen::Matrix3d sum = execution.parallel_sum_of(
       mesh.triangles.size(), block_size, Eigen::Matrix3d(Eigen::Matrix3d::Zero()),
-      [&](std::size_t begin, std::size_t end) {
-        Eigen::Matrix3d part = Eigen::Matrix3d::Zero();
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const Vector3 doubled_area =
-              doubled_area_normal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
-          const double length = doubled_area.norm();
-          if (length > 0.0) part += 0.5 / length * doubled_area * doubled_area.transpose();
-        }
-        return part;
+      [&](std::size_t f, Eigen::Matrix3d& part) {
+        const Triangle& t = mesh.triangles[f];
+        const Vector3 doubled_area =
+            doubled_area_normal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+        const double length = doubled_area.norm();
+        if (length > 0.0) part += 0.5 / length * doubled_area * doubled_area.transpose();
       });
   if (!(sum.trace() > 0.0)) {
     refuse(

@@ -176,9 +176,8 @@ class SphereSearch {
       }
     }
     const double enough = most();
-    execution.parallel_for(children.size(), 8, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) measure(children[i], true, enough);
-    });
+    execution.parallel_for_each(children.size(), 8,
+                                [&](std::size_t i) { measure(children[i], true, enough); });
     evaluations_ += children.size();
     for (const Cell& child : children) keep(child);
   }

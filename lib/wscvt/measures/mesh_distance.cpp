@@ -61,9 +61,7 @@ class MeshDistance::Builder {
     boxes_.nodes_.resize(2 * ((count + faces_a_leaf - 1) / faces_a_leaf) - 1);
     execution.report(0.0, stage);
     deal({0, count, 0}, execution, stage);
-    execution.parallel_for(parts_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) build(parts_[i]);
-    });
+    execution.parallel_for_each(parts_.size(), 1, [&](std::size_t i) { build(parts_[i]); });
     // The nodes above the parts, from the leaves up.
     for (auto part = upper_.rbegin(); part != upper_.rend(); ++part) join(*part);
   }
@@ -268,10 +266,8 @@ std::vector<double> MeshDistance::distances(const std::vector<Vector3>& points,
 std::vector<double> MeshDistance::signed_distances(const std::vector<Vector3>& points,
                                                    const Execution& execution) const {
   std::vector<double> values = distances(points, execution);
-  execution.parallel_for(points.size(), facet_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (contains(points[i])) values[i] = -values[i];
-    }
+  execution.parallel_for_each(points.size(), facet_block, [&](std::size_t i) {
+    if (contains(points[i])) values[i] = -values[i];
   });
   return values;
 }

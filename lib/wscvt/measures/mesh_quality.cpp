@@ -121,20 +121,16 @@ void count(Histogram& histogram, double value) {
 MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution) {
   require_faces(mesh);
   const TriangleMoments moments =
-      execution.parallel_sum(mesh.triangles.size(), edge_block, TriangleMoments(),
-                             [&](std::size_t begin, std::size_t end) {
-                               TriangleMoments part;
-                               for (std::size_t f = begin; f < end; ++f) {
-                                 const Triangle& t = mesh.triangles[f];
-                                 const TriangleEdges edges = triangle_edges(mesh, t);
-                                 for (std::size_t k = 0; k < 3; ++k) {
-                                   if (names_edge(t, k)) part.edge_length.add(edges.lengths[k]);
-                                 }
-                                 part.edge_ratio.add(edges.ratio);
-                                 part.smallest_angle.add(smallest_angle(edges));
-                               }
-                               return part;
-                             });
+      execution.parallel_sum_of(mesh.triangles.size(), edge_block, TriangleMoments(),
+                                [&](std::size_t f, TriangleMoments& part) {
+                                  const Triangle& t = mesh.triangles[f];
+                                  const TriangleEdges edges = triangle_edges(mesh, t);
+                                  for (std::size_t k = 0; k < 3; ++k) {
+                                    if (names_edge(t, k)) part.edge_length.add(edges.lengths[k]);
+                                  }
+                                  part.edge_ratio.add(edges.ratio);
+                                  part.smallest_angle.add(smallest_angle(edges));
+                                });
 
   std::vector<std::int32_t> valence(mesh.points.size(), 0);
   for (const Triangle& t : mesh.triangles) {

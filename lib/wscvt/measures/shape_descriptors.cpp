@@ -48,40 +48,31 @@ struct VolumeMoments {
 Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
   if (mesh.points.empty()) return Vector3::Zero();
   const Vector3 start = mesh.points.front();
-  const Vector3 sum =
-      execution.parallel_sum(mesh.points.size(), descriptor_block, Vector3(Vector3::Zero()),
-                             [&](std::size_t begin, std::size_t end) {
-                               Vector3 part = Vector3::Zero();
-                               for (std::size_t i = begin; i < end; ++i)
-                                 part += mesh.points[i] - start;
-                               return part;
-                             });
+  const Vector3 sum = execution.parallel_sum_of(
+      mesh.points.size(), descriptor_block, Vector3(Vector3::Zero()),
+      [&](std::size_t i, Vector3& part) { part += mesh.points[i] - start; });
   return start + sum / static_cast<double>(mesh.points.size());
 }
 
 /// Sums over the tetrahedra of the faces and `origin`.
 VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
                              const Execution& execution) {
-  return execution.parallel_sum(
+  return execution.parallel_sum_of(
       mesh.triangles.size(), descriptor_block, VolumeMoments(),
-      [&](std::size_t begin, std::size_t end) {
-        VolumeMoments part;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const Vector3 a = mesh.points[t[0]] - origin;
-          const Vector3 b = mesh.points[t[1]] - origin;
-          const Vector3 c = mesh.points[t[2]] - origin;
-          const Vector3 normal = doubled_area_normal(a, b, c);
-          const double determinant = a.dot(normal);  // six volumes; the normal is needed anyway
-          const Vector3 sum = a + b + c;
-          part.volume += determinant / 6.0;
-          part.area += 0.5 * normal.norm();
-          part.first += determinant / 24.0 * sum;
-          part.second +=
-              determinant / 120.0 *
-              (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
-        }
-        return part;
+      [&](std::size_t f, VolumeMoments& part) {
+        const Triangle& t = mesh.triangles[f];
+        const Vector3 a = mesh.points[t[0]] - origin;
+        const Vector3 b = mesh.points[t[1]] - origin;
+        const Vector3 c = mesh.points[t[2]] - origin;
+        const Vector3 normal = doubled_area_normal(a, b, c);
+        const double determinant = a.dot(normal);  // six volumes; the normal is needed anyway
+        const Vector3 sum = a + b + c;
+        part.volume += determinant / 6.0;
+        part.area += 0.5 * normal.norm();
+        part.first += determinant / 24.0 * sum;
+        part.second +=
+            determinant / 120.0 *
+            (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
       });
 }
 
@@ -105,32 +96,28 @@ struct GradientSquares {
 /// Computes them about `centre`, face by face.
 GradientSquares gradient_squares(const IndexedMesh& mesh, const Vector3& centre,
                                  const Execution& execution) {
-  return execution.parallel_sum(mesh.triangles.size(), descriptor_block, GradientSquares(),
-                                [&](std::size_t begin, std::size_t end) {
-                                  GradientSquares part;
-                                  for (std::size_t f = begin; f < end; ++f) {
-                                    const Triangle& t = mesh.triangles[f];
-                                    const Vector3 a = mesh.points[t[0]] - centre;
-                                    const Vector3 b = mesh.points[t[1]] - centre;
-                                    const Vector3 c = mesh.points[t[2]] - centre;
-                                    const Vector3 doubled_area = doubled_area_normal(a, b, c);
-                                    const double area = 0.5 * doubled_area.norm();
-                                    const Vector3 radius = a + b + c;
-                                    const double length = radius.norm();
-                                    if (!(area > 0.0) || !(length > 0.0)) continue;
-                                    const double cosine =
-                                        doubled_area.dot(radius) / (2.0 * area * length);
-                                    const auto square = [area, cosine](double clip) {
-                                      const double q = std::clamp(cosine, clip, 1.0);
-                                      return area * (1.0 - q * q) / q;
-                                    };
-                                    const double whole = square(smallest_cosine);
-                                    part.whole += whole;
-                                    if (cosine < smallest_cosine) part.clipped += whole;
-                                    part.with_half_clip += square(0.5 * smallest_cosine);
-                                  }
-                                  return part;
-                                });
+  return execution.parallel_sum_of(mesh.triangles.size(), descriptor_block, GradientSquares(),
+                                   [&](std::size_t f, GradientSquares& part) {
+                                     const Triangle& t = mesh.triangles[f];
+                                     const Vector3 a = mesh.points[t[0]] - centre;
+                                     const Vector3 b = mesh.points[t[1]] - centre;
+                                     const Vector3 c = mesh.points[t[2]] - centre;
+                                     const Vector3 doubled_area = doubled_area_normal(a, b, c);
+                                     const double area = 0.5 * doubled_area.norm();
+                                     const Vector3 radius = a + b + c;
+                                     const double length = radius.norm();
+                                     if (!(area > 0.0) || !(length > 0.0)) return;
+                                     const double cosine =
+                                         doubled_area.dot(radius) / (2.0 * area * length);
+                                     const auto square = [area, cosine](double clip) {
+                                       const double q = std::clamp(cosine, clip, 1.0);
+                                       return area * (1.0 - q * q) / q;
+                                     };
+                                     const double whole = square(smallest_cosine);
+                                     part.whole += whole;
+                                     if (cosine < smallest_cosine) part.clipped += whole;
+                                     part.with_half_clip += square(0.5 * smallest_cosine);
+                                   });
 }
 
 }  // namespace
@@ -219,23 +206,19 @@ constexpr double smallest_skewness = 1e-9;
 /// the sum of all products of three of the values, aaa + aab + ... + ccc.
 AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
                           const Vector3& centroid, const Execution& execution) {
-  return execution.parallel_sum(
-      mesh.triangles.size(), axes_block, AxisMoments(), [&](std::size_t begin, std::size_t end) {
-        AxisMoments part;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const Vector3 corner_a = mesh.points[t[0]] - centroid;
-          const Vector3 corner_b = mesh.points[t[1]] - centroid;
-          const Vector3 corner_c = mesh.points[t[2]] - centroid;
-          const Eigen::Array2d a = axes.transpose() * corner_a;
-          const Eigen::Array2d b = axes.transpose() * corner_b;
-          const Eigen::Array2d c = axes.transpose() * corner_c;
-          const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
-          const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
-          part.volume += volume;
-          part.third += (volume / 20.0 * products).matrix();
-        }
-        return part;
+  return execution.parallel_sum_of(
+      mesh.triangles.size(), axes_block, AxisMoments(), [&](std::size_t f, AxisMoments& part) {
+        const Triangle& t = mesh.triangles[f];
+        const Vector3 corner_a = mesh.points[t[0]] - centroid;
+        const Vector3 corner_b = mesh.points[t[1]] - centroid;
+        const Vector3 corner_c = mesh.points[t[2]] - centroid;
+        const Eigen::Array2d a = axes.transpose() * corner_a;
+        const Eigen::Array2d b = axes.transpose() * corner_b;
+        const Eigen::Array2d c = axes.transpose() * corner_c;
+        const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
+        const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
+        part.volume += volume;
+        part.third += (volume / 20.0 * products).matrix();
       });
 }
 

@@ -127,13 +127,11 @@ std::vector<Vector3> smoothed_vectors(const EditMesh& mesh, const Execution& exe
   for (std::size_t v = 0; v < vectors.size(); ++v) vectors[v] /= areas[v] + 1e-300;
   for (int round = 0; round < normal_rounds; ++round) {
     const std::vector<Vector3> old = vectors;
-    execution.parallel_for(vectors.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t v = begin; v < end; ++v) {
-        Vector3 sum = 2.0 * old[v];
-        mesh.around(static_cast<std::int32_t>(v),
-                    [&](std::int32_t h) { sum += old[mesh.target(h)]; });
-        vectors[v] = sum / (2.0 + mesh.degrees[v]);
-      }
+    execution.parallel_for_each(vectors.size(), 4096, [&](std::size_t v) {
+      Vector3 sum = 2.0 * old[v];
+      mesh.around(static_cast<std::int32_t>(v),
+                  [&](std::int32_t h) { sum += old[mesh.target(h)]; });
+      vectors[v] = sum / (2.0 + mesh.degrees[v]);
     });
   }
   return vectors;
@@ -191,9 +189,7 @@ class Evening {
  private:
   template <class Visit>
   void for_nodes(const Visit& visit) const {
-    execution_.parallel_for(count_, evened_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) visit(i);
-    });
+    execution_.parallel_for_each(count_, evened_block, visit);
   }
 
   Vector3 put_on_surface(const Vector3& point, std::int32_t& place) const {
@@ -216,23 +212,20 @@ class Evening {
   }
 
   void measure_cells() {
-    execution_.parallel_for(normals_.size(), cell_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const Vector3 normal = nodes_.normal(t);
-        normals_[t] = normal;
-        lengths_[t] = normal.norm();
-        const auto& [a, b, c] = nodes_.triangles[t];
-        if (surface_.density.empty()) {
-          even_cell_parts({&nodes_.points[a], &nodes_.points[b], &nodes_.points[c]}, lengths_[t],
-                          &parts_[3 * t]);
-          continue;
-        }
-        const std::array<CellPart, 3> parts =
-            cell_parts({nodes_.points[a], nodes_.points[b], nodes_.points[c]},
-                       {mass_density_[a], mass_density_[b], mass_density_[c]},
-                       normal / (lengths_[t] + 1e-300));
-        std::copy(parts.begin(), parts.end(), parts_.begin() + static_cast<std::ptrdiff_t>(3 * t));
+    execution_.parallel_for_each(normals_.size(), cell_block, [&](std::size_t t) {
+      const Vector3 normal = nodes_.normal(t);
+      normals_[t] = normal;
+      lengths_[t] = normal.norm();
+      const auto& [a, b, c] = nodes_.triangles[t];
+      if (surface_.density.empty()) {
+        even_cell_parts({&nodes_.points[a], &nodes_.points[b], &nodes_.points[c]}, lengths_[t],
+                        &parts_[3 * t]);
+        return;
       }
+      const std::array<CellPart, 3> parts = cell_parts(
+          {nodes_.points[a], nodes_.points[b], nodes_.points[c]},
+          {mass_density_[a], mass_density_[b], mass_density_[c]}, normal / (lengths_[t] + 1e-300));
+      std::copy(parts.begin(), parts.end(), parts_.begin() + static_cast<std::ptrdiff_t>(3 * t));
     });
   }
 
@@ -333,9 +326,8 @@ class Evening {
     std::vector<char> marked(count_);
     std::vector<char> spoilt(normals_.size());
     for (int attempt = 0; attempt < most_tries; ++attempt) {
-      execution_.parallel_for(spoilt.size(), cell_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) spoilt[t] = spoils(t, old) ? 1 : 0;
-      });
+      execution_.parallel_for_each(spoilt.size(), cell_block,
+                                   [&](std::size_t t) { spoilt[t] = spoils(t, old) ? 1 : 0; });
       std::fill(marked.begin(), marked.end(), 0);
       bool any = false;
       for (std::size_t t = 0; t < spoilt.size(); ++t) {

@@ -172,10 +172,8 @@ class Relocations {
   std::vector<Removal> cheapest_removals(const std::vector<std::int32_t>& candidates,
                                          std::size_t kept, double most) const {
     std::vector<Removal> removals(kept);
-    execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        removals[i] = cheapest_removal(candidates[i], most);
-      }
+    execution_.parallel_for_each(kept, candidate_block, [&](std::size_t i) {
+      removals[i] = cheapest_removal(candidates[i], most);
     });
     removals.erase(std::remove_if(removals.begin(), removals.end(),
                                   [](const Removal& removal) { return removal.into < 0; }),
@@ -285,9 +283,8 @@ class Relocations {
     std::partial_sort(insertions.begin(), insertions.begin() + static_cast<std::ptrdiff_t>(kept),
                       insertions.end());
     insertions.resize(kept);
-    execution_.parallel_for(kept, candidate_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) try_insertion(insertions[i], least);
-    });
+    execution_.parallel_for_each(kept, candidate_block,
+                                 [&](std::size_t i) { try_insertion(insertions[i], least); });
     std::sort(insertions.begin(), insertions.end());
     while (!insertions.empty() && insertions.back().gain <= 0.0) insertions.pop_back();
     return insertions;

@@ -245,18 +245,15 @@ FitState::FitState(EditMesh start, std::vector<FitSample> scan_samples,
     : mesh(std::move(start)), samples(std::move(scan_samples)), dial(fit_dial) {
   edge = mean_edge_length(mesh);
   const std::vector<Vector3> normals = unit_normals();
-  execution.parallel_for(
-      samples.size(), placed_samples_block, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t s = begin; s < end; ++s) {
-          std::int32_t face = static_cast<std::int32_t>(face_of(mesh.first[near[s]]));
-          walk_to_nearest(samples[s].point, mesh, face);
-          if (normals[face].dot(samples[s].normal) < face_agreement) {
-            face = facing_triangle(mesh, normals, samples[s], face_of(mesh.first[near[s]]), edge);
-            walk_to_nearest(samples[s].point, mesh, face);
-          }
-          samples[s].face = face;
-        }
-      });
+  execution.parallel_for_each(samples.size(), placed_samples_block, [&](std::size_t s) {
+    std::int32_t face = static_cast<std::int32_t>(face_of(mesh.first[near[s]]));
+    walk_to_nearest(samples[s].point, mesh, face);
+    if (normals[face].dot(samples[s].normal) < face_agreement) {
+      face = facing_triangle(mesh, normals, samples[s], face_of(mesh.first[near[s]]), edge);
+      walk_to_nearest(samples[s].point, mesh, face);
+    }
+    samples[s].face = face;
+  });
   // Neighbours in space become neighbours in memory.
   const Groups by_face =
       counting_sort(samples.size(), mesh.triangles.size(),

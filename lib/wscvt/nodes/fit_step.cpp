@@ -124,13 +124,11 @@ class FitEquations {
       lengths_[t] = normals_[t].norm();
     }
     for_nodes([&](std::size_t i) { look_at(i); });
-    execution_.parallel_for(faces_.size(), system_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        faces_[t] = FaceSystem();
-        add_samples(t);
-        add_angles(t);
-        add_triangle_springs(t);
-      }
+    execution_.parallel_for_each(faces_.size(), system_block, [&](std::size_t t) {
+      faces_[t] = FaceSystem();
+      add_samples(t);
+      add_angles(t);
+      add_triangle_springs(t);
     });
     for_nodes([&](std::size_t i) { gather(i); });
     add_ring_forces();
@@ -171,18 +169,12 @@ class FitEquations {
  private:
   template <class Visit>
   void for_nodes(const Visit& visit) const {
-    execution_.parallel_for(count_, equation_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) visit(i);
-    });
+    execution_.parallel_for_each(count_, equation_block, visit);
   }
   template <class Value>
   double sum_nodes(const Value& value) const {
-    return execution_.parallel_sum(count_, equation_block, 0.0,
-                                   [&](std::size_t begin, std::size_t end) {
-                                     double sum = 0.0;
-                                     for (std::size_t i = begin; i < end; ++i) sum += value(i);
-                                     return sum;
-                                   });
+    return execution_.parallel_sum_of(count_, equation_block, 0.0,
+                                      [&](std::size_t i, double& sum) { sum += value(i); });
   }
 
   void list_neighbours() {
@@ -555,12 +547,10 @@ class GuardedMove {
   /// changed since the last look.
   bool mark_spoilt() {
     std::vector<char> spoilt(mesh_.triangles.size());
-    execution_.parallel_for(spoilt.size(), guarded_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        const auto& [a, b, c] = mesh_.triangles[t];
-        const bool changed = (marked_[a] | marked_[b] | marked_[c]) != 0;
-        spoilt[t] = changed && is_spoilt(t) ? 1 : 0;
-      }
+    execution_.parallel_for_each(spoilt.size(), guarded_block, [&](std::size_t t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const bool changed = (marked_[a] | marked_[b] | marked_[c]) != 0;
+      spoilt[t] = changed && is_spoilt(t) ? 1 : 0;
     });
     std::fill(marked_.begin(), marked_.end(), 0);
     bool any = false;

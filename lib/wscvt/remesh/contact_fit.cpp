@@ -55,12 +55,10 @@ std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& s
   const std::vector<Vector3> centres = area_uniform_samples(offset, count);
   const std::vector<double> distances = surface.distances(centres, execution);
   std::vector<char> outside(centres.size(), 0);
-  execution.parallel_for(centres.size(), contact_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      // Chords of the offset surface are a little deeper than its vertices.
-      constexpr double smallest_share = 0.97;
-      outside[i] = distances[i] > smallest_share * radius && !surface.contains(centres[i]) ? 1 : 0;
-    }
+  execution.parallel_for_each(centres.size(), contact_block, [&](std::size_t i) {
+    // Chords of the offset surface are a little deeper than its vertices.
+    constexpr double smallest_share = 0.97;
+    outside[i] = distances[i] > smallest_share * radius && !surface.contains(centres[i]) ? 1 : 0;
   });
   std::vector<Ball> balls;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -87,12 +85,10 @@ std::vector<std::size_t> nearest_nodes(const std::vector<Vector3>& nodes,
   NearestSearch::Tree tree(points.begin(), points.end());
   tree.build();  // now, because several threads may make the first query
   std::vector<std::size_t> nearest(balls.size());
-  execution.parallel_for(balls.size(), contact_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const Vector3& c = balls[b].centre;
-      const NearestSearch search(tree, SearchKernel::Point_3(c.x(), c.y(), c.z()), 1);
-      nearest[b] = std::get<1>(search.begin()->first);
-    }
+  execution.parallel_for_each(balls.size(), contact_block, [&](std::size_t b) {
+    const Vector3& c = balls[b].centre;
+    const NearestSearch search(tree, SearchKernel::Point_3(c.x(), c.y(), c.z()), 1);
+    nearest[b] = std::get<1>(search.begin()->first);
   });
   return nearest;
 }

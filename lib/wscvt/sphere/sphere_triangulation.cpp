@@ -67,14 +67,10 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
 bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds,
                    const Execution& execution) {
   if (triangles.size() != 2 * seeds.size() - 4) return false;
-  const std::size_t turned = execution.parallel_sum(
-      triangles.size(), triangle_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const auto& [a, b, c] = triangles[i];
-          if (!counter_clockwise(seeds[a], seeds[b], seeds[c])) ++count;
-        }
-        return count;
+  const std::size_t turned = execution.parallel_sum_of(
+      triangles.size(), triangle_block, std::size_t{0}, [&](std::size_t i, std::size_t& count) {
+        const auto& [a, b, c] = triangles[i];
+        if (!counter_clockwise(seeds[a], seeds[b], seeds[c])) ++count;
       });
   return turned == 0;
 }

@@ -83,16 +83,14 @@ std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coe
            std::to_string(coefficients.size()) + ".");
   }
   RowMajor orders(rows_, 2 * degree_ + 1);
-  execution.parallel_for(legendre_.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t order = begin; order < end; ++order) {
-      const int m = static_cast<int>(order);
-      Eigen::MatrixXd pair(degree_ + 1 - m, m > 0 ? 2 : 1);
-      for (int l = m; l <= degree_; ++l) {
-        pair(l - m, 0) = coefficients[harmonic_index(l, m)];
-        if (m > 0) pair(l - m, 1) = coefficients[harmonic_index(l, -m)];
-      }
-      orders.middleCols(first_column(m), pair.cols()).noalias() = legendre_[order] * pair;
+  execution.parallel_for_each(legendre_.size(), 4, [&](std::size_t order) {
+    const int m = static_cast<int>(order);
+    Eigen::MatrixXd pair(degree_ + 1 - m, m > 0 ? 2 : 1);
+    for (int l = m; l <= degree_; ++l) {
+      pair(l - m, 0) = coefficients[harmonic_index(l, m)];
+      if (m > 0) pair(l - m, 1) = coefficients[harmonic_index(l, -m)];
     }
+    orders.middleCols(first_column(m), pair.cols()).noalias() = legendre_[order] * pair;
   });
   std::vector<double> values(rows() * azimuths());
   Eigen::Map<RowMajor> grid(values.data(), rows_, azimuths_);
@@ -120,15 +118,13 @@ std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values
     orders.middleRows(first, count).noalias() = grid.middleRows(first, count) * trigonometric_;
   });
   std::vector<double> coefficients(harmonic_count(degree_));
-  execution.parallel_for(legendre_.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t order = begin; order < end; ++order) {
-      const int m = static_cast<int>(order);
-      const Eigen::MatrixXd pair =
-          legendre_[order].transpose() * orders.middleCols(first_column(m), m > 0 ? 2 : 1);
-      for (int l = m; l <= degree_; ++l) {
-        coefficients[harmonic_index(l, m)] = pair(l - m, 0);
-        if (m > 0) coefficients[harmonic_index(l, -m)] = pair(l - m, 1);
-      }
+  execution.parallel_for_each(legendre_.size(), 4, [&](std::size_t order) {
+    const int m = static_cast<int>(order);
+    const Eigen::MatrixXd pair =
+        legendre_[order].transpose() * orders.middleCols(first_column(m), m > 0 ? 2 : 1);
+    for (int l = m; l <= degree_; ++l) {
+      coefficients[harmonic_index(l, m)] = pair(l - m, 0);
+      if (m > 0) coefficients[harmonic_index(l, -m)] = pair(l - m, 1);
     }
   });
   return coefficients;

@@ -29,8 +29,8 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   }
   mesh_.triangles = mesh.triangles;
   mesh_.points.resize(mesh.points.size());
-  execution.parallel_for(mesh.points.size(), ray_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) mesh_.points[i] = (mesh.points[i] - centre) / unit;
+  execution.parallel_for_each(mesh.points.size(), ray_block, [&](std::size_t i) {
+    mesh_.points[i] = (mesh.points[i] - centre) / unit;
   });
   if (overhang_fraction >= 1.0) {
     refuse(
@@ -39,18 +39,13 @@ MeshSurface::MeshSurface(const IndexedMesh& mesh, const Vector3& centre, double 
   }
 
   std::vector<CubeMap::Image> images(mesh_.points.size());
-  execution.parallel_for(images.size(), ray_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) images[i] = CubeMap::image(mesh_.points[i]);
-  });
+  execution.parallel_for_each(images.size(), ray_block,
+                              [&](std::size_t i) { images[i] = CubeMap::image(mesh_.points[i]); });
   const auto entries = [&] {
-    return execution.parallel_sum(
-        mesh_.triangles.size(), ray_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-          std::size_t part = 0;
-          for (std::size_t f = begin; f < end; ++f) {
-            const Triangle& t = mesh_.triangles[f];
-            part += cube_.count_cells(images[t[0]], images[t[1]], images[t[2]]);
-          }
-          return part;
+    return execution.parallel_sum_of(
+        mesh_.triangles.size(), ray_block, std::size_t{0}, [&](std::size_t f, std::size_t& part) {
+          const Triangle& t = mesh_.triangles[f];
+          part += cube_.count_cells(images[t[0]], images[t[1]], images[t[2]]);
         });
   };
   // A needle, as in a fan about a pole, gets an entry in every cell of the rectangle about it, so

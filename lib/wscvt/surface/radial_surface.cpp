@@ -102,13 +102,9 @@ double surface_area(const RadialSurface& surface, int polar_nodes, const Executi
   const SphereQuadrature quadrature = gauss_legendre_sphere(polar_nodes);
   const std::vector<double> elements =
       area_elements(surface, quadrature.directions, execution).elements;
-  return execution.parallel_sum(elements.size(), radius_block, 0.0,
-                                [&](std::size_t begin, std::size_t end) {
-                                  double part = 0.0;
-                                  for (std::size_t i = begin; i < end; ++i)
-                                    part += quadrature.weights[i] * elements[i];
-                                  return part;
-                                });
+  return execution.parallel_sum_of(
+      elements.size(), radius_block, 0.0,
+      [&](std::size_t i, double& part) { part += quadrature.weights[i] * elements[i]; });
 }
 
 IndexedMesh mesh_of_surface(const RadialSurface& surface, int frequency,

@@ -188,10 +188,8 @@ std::vector<TrianglePair> TriangleHash::pairs(const EditMesh& mesh,
                                               const Execution& execution) const {
   constexpr std::size_t block = 1024;
   std::vector<char> embedded(mesh.points.size());
-  execution.parallel_for(embedded.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      embedded[v] = is_embedded(mesh, static_cast<std::int32_t>(v)) ? 1 : 0;
-    }
+  execution.parallel_for_each(embedded.size(), block, [&](std::size_t v) {
+    embedded[v] = is_embedded(mesh, static_cast<std::int32_t>(v)) ? 1 : 0;
   });
   std::vector<std::vector<TrianglePair>> parts((mesh.triangles.size() + block - 1) / block);
   execution.parallel_for(mesh.triangles.size(), block, [&](std::size_t begin, std::size_t end) {

@@ -47,44 +47,40 @@ void compute_power_cells(const SphereTriangulation& triangulation,
   const bool weighted = !weights.empty();
 
   cells.vertices.resize(triangles.size());
-  execution.parallel_for(triangles.size(), cell_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = triangles[t];
-      const double w = weighted ? weights[a] : 0.0;
-      const Vector3 centre =
-          radical_centre(sites[a], sites[b], sites[c], weighted ? w - weights[b] : 0.0,
-                         weighted ? w - weights[c] : 0.0);
-      cells.vertices[t] = centre.normalized();
-    }
+  execution.parallel_for_each(triangles.size(), cell_block, [&](std::size_t t) {
+    const auto [a, b, c] = triangles[t];
+    const double w = weighted ? weights[a] : 0.0;
+    const Vector3 centre =
+        radical_centre(sites[a], sites[b], sites[c], weighted ? w - weights[b] : 0.0,
+                       weighted ? w - weights[c] : 0.0);
+    cells.vertices[t] = centre.normalized();
   });
 
   cells.centroids.resize(count);
   cells.areas.resize(count);
-  execution.parallel_for(count, cell_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vector3& site = sites[i];
-      const std::int32_t first = triangulation.first_half_edge()[i];
-      double area = 0.0;
-      Vector3 sum = Vector3::Zero();
-      // Vectors from the site to this and the next cell vertex, counter-clockwise.
-      std::int32_t h = first;
-      Vector3 a = cells.vertices[h / 3] - site;
-      do {
-        h = opposite[SphereTriangulation::previous(h)];
-        const Vector3 b = cells.vertices[h / 3] - site;
-        const double fan = 0.5 * a.cross(b).dot(site);
-        area += fan;
-        sum += fan / 3.0 * (a + b);
-        a = b;
-      } while (h != first);
-      cells.areas[i] = area;
-      // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise the
-      // shift is projected to the tangent plane, because the site returns to the surface along its
-      // ray, and height above it would only shorten the step.
-      Vector3 shift = area > 0.0 ? Vector3(sum / area) : Vector3(Vector3::Zero());
-      shift -= shift.dot(site) * site;
-      cells.centroids[i] = site + shift;
-    }
+  execution.parallel_for_each(count, cell_block, [&](std::size_t i) {
+    const Vector3& site = sites[i];
+    const std::int32_t first = triangulation.first_half_edge()[i];
+    double area = 0.0;
+    Vector3 sum = Vector3::Zero();
+    // Vectors from the site to this and the next cell vertex, counter-clockwise.
+    std::int32_t h = first;
+    Vector3 a = cells.vertices[h / 3] - site;
+    do {
+      h = opposite[SphereTriangulation::previous(h)];
+      const Vector3 b = cells.vertices[h / 3] - site;
+      const double fan = 0.5 * a.cross(b).dot(site);
+      area += fan;
+      sum += fan / 3.0 * (a + b);
+      a = b;
+    } while (h != first);
+    cells.areas[i] = area;
+    // A cell turned inside out by a coarse start has no centroid: the seed stays. Otherwise the
+    // shift is projected to the tangent plane, because the site returns to the surface along its
+    // ray, and height above it would only shorten the step.
+    Vector3 shift = area > 0.0 ? Vector3(sum / area) : Vector3(Vector3::Zero());
+    shift -= shift.dot(site) * site;
+    cells.centroids[i] = site + shift;
   });
 }
 

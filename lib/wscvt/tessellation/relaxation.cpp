@@ -22,12 +22,9 @@ constexpr double over_relaxation = 1.2;
 
 double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>& to,
                    const Execution& execution) {
-  const double sum =
-      execution.parallel_sum(from.size(), seed_block, 0.0, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        for (std::size_t i = begin; i < end; ++i) part += (to[i] - from[i]).squaredNorm();
-        return part;
-      });
+  const double sum = execution.parallel_sum_of(
+      from.size(), seed_block, 0.0,
+      [&](std::size_t i, double& part) { part += (to[i] - from[i]).squaredNorm(); });
   return sum / static_cast<double>(from.size());
 }
 
@@ -103,13 +100,9 @@ class Evaluation {
       }
     };
     const Sums sums =
-        execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
-          Sums part;
-          for (std::size_t i = begin; i < end; ++i) {
-            part.area += cells_.areas[i];
-            part.other += weights_.empty() ? 0.0 : weights_[i];
-          }
-          return part;
+        execution_.parallel_sum_of(count, seed_block, Sums(), [&](std::size_t i, Sums& part) {
+          part.area += cells_.areas[i];
+          part.other += weights_.empty() ? 0.0 : weights_[i];
         });
     const double mean_area = sums.area / static_cast<double>(count);
     const double mean_weight = sums.other / static_cast<double>(count);
@@ -119,14 +112,10 @@ class Evaluation {
                       mean_area + cell_area_per_weight * (weights_[i] - mean_weight));
     };
     const Sums ratios =
-        execution_.parallel_sum(count, seed_block, Sums(), [&](std::size_t begin, std::size_t end) {
-          Sums part;
-          for (std::size_t i = begin; i < end; ++i) {
-            const double ratio = cells_.areas[i] / target(i);
-            part.area += ratio;
-            part.other += ratio * ratio;
-          }
-          return part;
+        execution_.parallel_sum_of(count, seed_block, Sums(), [&](std::size_t i, Sums& part) {
+          const double ratio = cells_.areas[i] / target(i);
+          part.area += ratio;
+          part.other += ratio * ratio;
         });
     const double mean_ratio = ratios.area / static_cast<double>(count);
     const double variance = ratios.other / static_cast<double>(count) - mean_ratio * mean_ratio;
@@ -195,24 +184,18 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
 
     const std::vector<Vector3>& centroids = evaluation.centroids();
     const double uphill =
-        execution.parallel_sum(count, seed_block, 0.0, [&](std::size_t begin, std::size_t end) {
-          double part = 0.0;
-          for (std::size_t i = begin; i < end; ++i) {
-            stepped[i] = (seeds[i] + over_relaxation * (centroids[i] - seeds[i])).normalized();
-            part += (seeds[i] - stepped[i]).dot(stepped[i] - arrived[i]);
-          }
-          return part;
+        execution.parallel_sum_of(count, seed_block, 0.0, [&](std::size_t i, double& part) {
+          stepped[i] = (seeds[i] + over_relaxation * (centroids[i] - seeds[i])).normalized();
+          part += (seeds[i] - stepped[i]).dot(stepped[i] - arrived[i]);
         });
     // `uphill` compares the last step with the current pull of the cells: the gradient test of
     // O'Donoghue and Candes, which needs no energy. Momentum that is never dropped oscillates about
     // the end and needs more than twice the steps.
     const double carry = momentum.carry(uphill > 0.0);
-    execution.parallel_for(count, seed_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
-        arrived[i] = seeds[i];
-        seeds[i] = moved;
-      }
+    execution.parallel_for_each(count, seed_block, [&](std::size_t i) {
+      const Vector3 moved = (stepped[i] + carry * (stepped[i] - arrived[i])).normalized();
+      arrived[i] = seeds[i];
+      seeds[i] = moved;
     });
     if (!try_evaluation(evaluation, arrived, seeds, report)) {
       report.outcome = RelaxationOutcome::Stuck;
