@@ -168,17 +168,6 @@ std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution&
 
 namespace {
 
-/// Curvatures below this, in 1 / radius of the sphere of equal area, are raised to it, because a
-/// flat face has no scale.
-constexpr double flat_curvature_in_space = 0.01;
-/// Largest alpha x of eq. 11, so that no wanted cell is negative.
-constexpr double most_weight = 0.9;
-/// The paper's law: cell area = 3.118 w + C.
-constexpr double area_per_weight = 3.118;
-constexpr double least_cell_share = 0.05;
-/// Smallest deviation of the logarithm of the curvature; below it the grain counts as a sphere. Eq.
-/// 14 divides by the deviation, and would otherwise gather nodes by a scanned sphere's noise.
-constexpr double least_deviation = 0.05;
 /// Radius of the discs over which curvatures are averaged, in sqrt(area per node).
 constexpr double disc_radius = 0.6;
 
@@ -232,7 +221,7 @@ double weighted_mean(const std::vector<double>& areas, const std::vector<double>
 
 /// Eqs. 11 to 14; false on a sphere, whose deviation is zero.
 bool weigh_curvature(std::vector<double>& field, const std::vector<double>& areas, double alpha) {
-  for (double& k : field) k = -portable::log(std::max(k, flat_curvature_in_space));
+  for (double& k : field) k = -portable::log(std::max(k, flat_curvature));
   const double mean = weighted_mean(areas, field);
   std::vector<double> squares;
   squares.reserve(field.size());
@@ -240,10 +229,10 @@ bool weigh_curvature(std::vector<double>& field, const std::vector<double>& area
   const double deviation = std::sqrt(weighted_mean(areas, squares));
   if (!(deviation > 1e-9)) return false;
   for (double& value : field) {
-    const double x = alpha * (value - mean) / (3.0 * std::max(deviation, least_deviation));
-    const double weight = 4.0 * std::clamp(x, -most_weight, most_weight);
-    const double cell = 1.0 + area_per_weight * weight / (4.0 * pi);
-    value = 1.0 / std::max(least_cell_share, cell);
+    const double x = alpha * (value - mean) / (3.0 * std::max(deviation, smallest_deviation));
+    const double weight = 4.0 * std::clamp(x, -curvature_clip, curvature_clip);
+    const double cell = 1.0 + cell_area_per_weight * weight / (4.0 * pi);
+    value = 1.0 / std::max(smallest_cell_share, cell);
   }
   return true;
 }

@@ -9,6 +9,29 @@
 
 namespace wscvt {
 
+/// The paper's law (see remesh.h): a relaxed cell's solid angle is this times its seed's weight,
+/// plus a constant that is equal for all seeds: 2 / (5 / (9 sqrt 3)) from the second moment of the
+/// regular hexagon.
+inline constexpr double cell_area_per_weight = 3.118;
+
+/// Smallest cell, as a fraction of the mean cell, for which this law is used; no cell is wanted
+/// smaller.
+inline constexpr double smallest_cell_share = 0.05;
+
+/// Largest alpha x of eq. 11. Its weight is 3.6 / N, and 3.118 times this is 0.89 of the mean cell,
+/// so that no wanted cell is negative. Beyond it seeds lose their cells (measured above alpha
+/// 1.25).
+inline constexpr double curvature_clip = 0.9;
+
+/// Curvatures below this, in 1 / radius of the sphere of equal area, are raised to it before a
+/// logarithm, because a flat face has no scale.
+inline constexpr double flat_curvature = 0.01;
+
+/// Smallest deviation of the logarithm of the curvature; below it the grain counts as a sphere. Eq.
+/// 14 divides by the deviation, so on a scanned sphere it would gather the nodes by the scan's
+/// noise.
+inline constexpr double smallest_deviation = 0.05;
+
 /// Computes principal curvatures at every vertex of a closed, oriented mesh (see check_mesh) by the
 /// least-squares quadric z = a x^2 + b y^2 + c x y + d x + e y + f over the vertex and the vertices
 /// within `rings` edges, in the frame of the angle-weighted normal (the paper, section 2.3). On

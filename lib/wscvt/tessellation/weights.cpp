@@ -2,10 +2,8 @@
 #include "wscvt/tessellation/weights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -20,93 +18,80 @@ namespace wscvt {
 
 namespace {
 
-/// Equal solid angles.
-WeightingRule constant_weighting(const TabulatedSurface& /*table*/,
-                                 const WeightingOptions& /*options*/,
-                                 const Execution& /*execution*/) {
-  WeightingRule rule;
-  rule.weight = [](double, double, const FieldDeviation&) { return 0.0; };
-  return rule;
+/// Rows that resolve both the surface and the cells: 128 rows are 1.4 degrees, a third of a cell of
+/// 2000 and an eighth of a period of degree 30.
+int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
+
+/// Returns the area of the surface by quadrature on a seventh of as many nodes as the grid has.
+/// This gives it to 1e-5 on series of degree 20 and to 1e-3 on series of degree 60 (sixteen scans).
+/// Cells follow a weight only to some per cent.
+double quick_area(const RadialSurface& surface, int rows, const Execution& execution) {
+  return surface_area(surface, 3 * rows / 8, execution);
 }
 
 /// WSCVT-D, the paper's eq. 10.
-WeightingRule radial_distance_weighting(const TabulatedSurface& table,
-                                        const WeightingOptions& /*options*/,
-                                        const Execution& /*execution*/) {
+WeightingRule radial_distance_weighting(const RadialSurface& surface, int rows,
+                                        const Execution& execution) {
   WeightingRule rule;
-  rule.field = table.radii();
+  rule.field = surface.radii(SphereGrid::directions(rows), execution);
   rule.stencil = 6;
-  rule.weight = [area = table.area()](double radius, double count, const FieldDeviation&) {
+  rule.weight = [area = quick_area(surface, rows, execution)](double radius, double count,
+                                                              const FieldDeviation&) {
     return area / (count * pi * radius * radius);
   };
   return rule;
 }
 
 /// Equal surface areas.
-WeightingRule area_weighting(const TabulatedSurface& table, const WeightingOptions& /*options*/,
-                             const Execution& /*execution*/) {
+WeightingRule area_weighting(const RadialSurface& surface, int rows, const Execution& execution) {
+  GridField elements(rows);
+  elements.values = area_elements(surface, SphereGrid::directions(rows), execution).elements;
   WeightingRule rule;
-  rule.field = table.area_elements().values;
-  rule.stencil = 6;
-  rule.weight = [area = table.area()](double element, double count, const FieldDeviation&) {
+  rule.weight = [area = elements.integral([](double g) { return g; })](double element, double count,
+                                                                       const FieldDeviation&) {
     return area / (cell_area_per_weight * count * element);
   };
+  rule.field = std::move(elements.values);
+  rule.stencil = 6;
   return rule;
 }
 
-constexpr std::size_t curvature_block = 1024;
-
-/// Combines a pair of principal curvatures into one number whose square is averaged.
-using CurvatureSquare = double (*)(const PrincipalCurvatures&);
-
-/// Returns the root mean square of the surface's curvature over caps of 0.6 h about the nodes of
-/// the table's grid, h = sqrt(4 pi / N). Cells cannot follow finer detail, which would keep the
+/// Returns the root mean square of the surface's largest curvature over caps of 0.6 h about the
+/// nodes of the grid, h = sqrt(4 pi / N). Cells cannot follow finer detail, which would keep the
 /// iteration from settling.
-GridField smoothed_curvature(const TabulatedSurface& table, CurvatureSquare square,
-                             const Execution& execution) {
-  const int rows = table.rows();
-  const double radius = 0.6 * std::sqrt(4.0 * pi / table.node_count());
+std::vector<double> smoothed_curvature(const RadialSurface& surface, int node_count, int rows,
+                                       const Execution& execution) {
+  constexpr std::size_t block = 1024;
+  const double radius = 0.6 * std::sqrt(4.0 * pi / node_count);
   GridField moment(rows);
   GridField measure(rows);
   const std::size_t columns = moment.columns();
   const std::vector<Vector3> nodes = SphereGrid::directions(rows);
-  execution.parallel_for(nodes.size(), curvature_block, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(nodes.size(), block, [&](std::size_t begin, std::size_t end) {
     std::vector<RadialJet> jets(end - begin);
-    table.surface().evaluate(nodes.data() + begin, jets.size(), Derivatives::Second, jets.data());
+    surface.evaluate(nodes.data() + begin, jets.size(), Derivatives::Second, jets.data());
     for (std::size_t i = begin; i < end; ++i) {
+      const PrincipalCurvatures k = principal_curvatures(jets[i - begin], nodes[i]);
       const double share = moment.sines[i / columns];
-      moment.values[i] = share * square(principal_curvatures(jets[i - begin], nodes[i]));
+      moment.values[i] = share * std::max(k.maximum * k.maximum, k.minimum * k.minimum);
       measure.values[i] = share;
     }
   });
-  const std::vector<double> moments = sum_over_caps(moment, radius, execution).sums;
+  std::vector<double> result = sum_over_caps(moment, radius, execution).sums;
   const std::vector<double> measures = sum_over_caps(measure, radius, execution).sums;
-  GridField result(rows);
-  for (std::size_t i = 0; i < result.values.size(); ++i) {
-    result.values[i] = std::sqrt(moments[i] / measures[i]);
-  }
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::sqrt(result[i] / measures[i]);
   return result;
 }
 
-/// Smallest deviation of the logarithm of the curvature; below it the grain counts as a sphere. Eq.
-/// 14 divides by the deviation, so on a scanned sphere it would gather the nodes by the scan's
-/// noise.
-constexpr double smallest_deviation = 0.05;
-
-double largest_square(const PrincipalCurvatures& k) {
-  return std::max(k.maximum * k.maximum, k.minimum * k.minimum);
-}
-
 /// WSCVT-C, the paper's eqs. 11 to 14.
-WeightingRule curvature_weighting(const TabulatedSurface& table, const WeightingOptions& options,
-                                  const Execution& execution) {
+WeightingRule curvature_weighting(const RadialSurface& surface, double alpha, int node_count,
+                                  int rows, const Execution& execution) {
   WeightingRule rule;
-  rule.field = smoothed_curvature(table, largest_square, execution).values;
-  const double radius = table.radius();
+  rule.field = smoothed_curvature(surface, node_count, rows, execution);
+  const double radius = std::sqrt(quick_area(surface, rows, execution) / (4.0 * pi));
   for (double& k : rule.field) k = -portable::log(std::max(k * radius, flat_curvature));
   rule.reads_deviation = true;
-  rule.weight = [alpha = options.curvature_alpha](double value, double count,
-                                                  const FieldDeviation& over_seeds) {
+  rule.weight = [alpha](double value, double count, const FieldDeviation& over_seeds) {
     // A sphere's rounding errors are not curvature.
     if (!(over_seeds.deviation > 1e-9)) return 0.0;
     const double deviation = std::max(over_seeds.deviation, smallest_deviation);
@@ -116,56 +101,29 @@ WeightingRule curvature_weighting(const TabulatedSurface& table, const Weighting
   return rule;
 }
 
-/// Rows that resolve both the surface and the cells: 128 rows are 1.4 degrees, a third of a cell of
-/// 2000 and an eighth of a period of degree 30.
-int rows_for(int node_count) { return node_count <= 2000 ? 128 : 256; }
+WeightingRule weighting_rule(const RadialSurface& surface, const WeightingOptions& options,
+                             int node_count, const Execution& execution) {
+  const int rows = rows_for(node_count);
+  switch (options.kind) {
+    case Weighting::Constant:
+      break;
+    case Weighting::RadialDistance:
+      return radial_distance_weighting(surface, rows, execution);
+    case Weighting::Curvature:
+      return curvature_weighting(surface, options.curvature_alpha, node_count, rows, execution);
+    case Weighting::Area:
+      return area_weighting(surface, rows, execution);
+  }
+  WeightingRule constant;
+  constant.weight = [](double, double, const FieldDeviation&) { return 0.0; };
+  return constant;
+}
 
 }  // namespace
 
 void check_weighting_options(const WeightingOptions& options) {
   require_valid(options.kind);
   require_in_range(options.curvature_alpha, curvature_alpha_option);
-}
-
-WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptions& options,
-                             const Execution& execution) {
-  constexpr decltype(&constant_weighting) functions[] = {
-      constant_weighting,  // in the order of the enumeration
-      radial_distance_weighting, curvature_weighting, area_weighting};
-  static_assert(std::size(functions) == std::size(enumerators<Weighting>()),
-                "every weighting has a function");
-  check_weighting_options(options);
-  return functions[static_cast<std::size_t>(options.kind)](table, options, execution);
-}
-
-TabulatedSurface::TabulatedSurface(const RadialSurface& surface, int node_count,
-                                   const Execution& execution)
-    : surface_(surface), node_count_(node_count), execution_(execution) {}
-
-int TabulatedSurface::rows() const { return rows_for(node_count_); }
-
-const std::vector<double>& TabulatedSurface::radii() const {
-  if (radii_.empty()) {
-    radii_ = surface_.radii(SphereGrid::directions(rows()), execution_);
-  }
-  return radii_;
-}
-
-const GridField& TabulatedSurface::area_elements() const {
-  if (!area_elements_) {
-    AreaElements read = wscvt::area_elements(surface_, SphereGrid::directions(rows()), execution_);
-    radii_ = std::move(read.radii);
-    area_elements_.emplace(rows()).values = std::move(read.elements);
-  }
-  return *area_elements_;
-}
-
-double TabulatedSurface::area() const {
-  // If only the area is needed, quadrature on a seventh of as many nodes gives it to 1e-5 on series
-  // of degree 20 and to 1e-3 on series of degree 60 (sixteen scans). Cells follow a weight only to
-  // some per cent.
-  return area_elements_ ? area_elements_->integral([](double g) { return g; })
-                        : surface_area(surface_, 3 * rows() / 8, execution_);
 }
 
 namespace {
@@ -216,15 +174,15 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
                                    int node_count, const Execution& execution)
-    : node_count_((check_weighting_options(options), node_count)) {
+    : node_count_(node_count) {
+  check_weighting_options(options);
   if (node_count < 4) {
     refuse("The number of nodes is " + std::to_string(node_count) +
            ". A closed mesh needs at least 4.");
   }
   const double count = node_count;
-  const TabulatedSurface table(surface, node_count, execution);
-  const int rows = table.rows();
-  rule_ = weighting_rule(table, options, execution);
+  const int rows = rows_for(node_count);
+  rule_ = weighting_rule(surface, options, node_count, execution);
   GridField field(rows);
   if (!rule_.field.empty()) {
     field.values = std::move(rule_.field);

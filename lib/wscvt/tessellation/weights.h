@@ -1,28 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/base/numbers.h"
 #include "wscvt/sphere/sphere_grid.h"
+#include "wscvt/surface/curvature.h"
 #include "wscvt/surface/radial_surface.h"
-#include "wscvt/tessellation/cap_sums.h"
 #include "wscvt/tessellation/tessellation_options.h"
 
 namespace wscvt {
-
-/// A relaxed cell's solid angle is this times its seed's weight, plus a constant that is equal for
-/// all seeds: 2 / (5 / (9 sqrt 3)) from the second moment of the regular hexagon.
-inline constexpr double cell_area_per_weight = 3.118;
-
-/// Smallest cell, as a fraction of the mean cell, for which this law is used; no cell is wanted
-/// smaller.
-inline constexpr double smallest_cell_share = 0.05;
 
 /// Weights of seeds at any position, for the relaxation. One value per seed, in their order.
 class SeedModel {
@@ -34,44 +24,9 @@ class SeedModel {
                        std::vector<double>& result) const = 0;
 };
 
-/// Surface quantities for the weightings, at the nodes of an equal-angle grid. Each is computed on
-/// first use, because derivatives cost three times as much as radii. Not thread-safe.
-class TabulatedSurface {
- public:
-  /// For `node_count` seeds. The surface must outlive the table.
-  TabulatedSurface(const RadialSurface& surface, int node_count, const Execution& execution);
-
-  const RadialSurface& surface() const { return surface_; }
-  int node_count() const { return node_count_; }
-  int rows() const;                          ///< of the grid
-  const std::vector<double>& radii() const;  ///< at the grid's nodes
-  const GridField& area_elements() const;    ///< dA/dOmega at the grid's nodes
-  /// Returns S, the surface's area: from the area elements if they were computed, else by
-  /// quadrature; both within 1e-3.
-  double area() const;
-  /// Returns the radius of the sphere of the same area.
-  double radius() const { return std::sqrt(area() / (4.0 * pi)); }
-
- private:
-  const RadialSurface& surface_;
-  int node_count_;
-  Execution execution_;
-  mutable std::vector<double> radii_;
-  mutable std::optional<GridField> area_elements_;
-};
-
 // The rule by which a weighting gives weights to the seed model. Each weighting is one function.
-// To add one, add a function and its entry in weights.cpp, and a value with its row in
+// To add one, add a function and its case in weights.cpp, and a value with its row in
 // tessellation_options.h.
-
-/// Largest alpha x of eq. 11. Its weight is 3.6 / N, and 3.118 times this is 0.89 of the mean cell,
-/// so that no wanted cell is negative. Beyond it seeds lose their cells (measured above alpha
-/// 1.25).
-inline constexpr double curvature_clip = 0.9;
-
-/// Curvatures below this, in 1 / equivalent radius, are raised to it before a logarithm, because a
-/// flat face has no scale.
-inline constexpr double flat_curvature = 0.01;
 
 /// Mean and standard deviation of a field over seeds.
 struct FieldDeviation {
@@ -91,10 +46,6 @@ struct WeightingRule {
   std::function<double(double value, double count, const FieldDeviation& over_seeds)> weight;
   bool reads_deviation = false;  ///< whether `weight` reads `over_seeds`
 };
-
-/// Returns the rule of options.kind for a surface.
-WeightingRule weighting_rule(const TabulatedSurface& table, const WeightingOptions& options,
-                             const Execution& execution);
 
 /// The weightings for a given surface (see Weighting).
 ///
