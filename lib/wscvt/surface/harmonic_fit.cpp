@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -226,66 +225,36 @@ double rms_distance(const AreaSamples& samples, const HarmonicSurface& series,
   return std::sqrt(squares / std::accumulate(samples.weights.begin(), samples.weights.end(), 0.0));
 }
 
-/// A grid that is read once, and its series of every degree up to the grid's degree.
-class Fitter {
- public:
-  Fitter(const RadialSurface& surface, int highest_degree, const Execution& execution)
-      : execution_(execution) {
-    execution.report(0.0, fit_stage);
-    const RadialGrid grid = read_resolved_grid(surface, highest_degree, execution);
-    rays_ = grid.radii.size();
-    coefficients_ = project(grid, highest_degree, execution);
-    execution.report(0.6, fit_stage);
-    samples_ = sample_by_area(surface, grid, execution);
-    execution.report(0.8, fit_stage);
-  }
-
-  /// Returns the series of a lower degree: the first coefficients of the highest degree. Empty if
-  /// it is not positive everywhere.
-  std::optional<HarmonicFit> of_degree(int degree) const {
-    HarmonicSurface series(
-        {coefficients_.begin(),
-         coefficients_.begin() + static_cast<std::ptrdiff_t>(harmonic_count(degree))});
-    HarmonicFitReport report;
-    report.smallest_radius = smallest_radius(series, execution_);
-    if (!(report.smallest_radius > 0.0)) return std::nullopt;
-    report.degree = degree;
-    report.rays = rays_;
-    report.residual = rms_distance(samples_, series, execution_);
-    return HarmonicFit{std::move(series), report};
-  }
-
-  /// Returns the series of the highest degree up to `degree` that is positive everywhere. Tries
-  /// every degree, so that a higher request never gives a lower degree than a lower request.
-  HarmonicFit highest(int degree) const {
-    for (int trial = degree; trial >= 0; --trial) {
-      execution_.report(0.8, fit_stage);
-      if (std::optional<HarmonicFit> fit = of_degree(trial)) {
-        fit->report.limit = trial < degree ? DegreeLimit::Radius : DegreeLimit::None;
-        return *std::move(fit);
-      }
-    }
-    throw Error(ErrorCode::NumericalFailure,
-                "No spherical-harmonic series of degree " + std::to_string(degree) +
-                    " or lower describes the surface with a positive radius everywhere. Check that "
-                    "the mesh is closed around its centre.");
-  }
-
- private:
-  Execution execution_;
-  std::size_t rays_ = 0;
-  std::vector<double> coefficients_;
-  AreaSamples samples_;
-};
-
 }  // namespace
 
 HarmonicFit fit_harmonics(const RadialSurface& surface, int degree, const Execution& execution) {
   require_in_range(degree, fit_degree_option);
-  HarmonicFit fit = Fitter(surface, degree, execution).highest(degree);
-  fit.report.requested_degree = degree;
-  execution.report(1.0, fit_stage);
-  return fit;
+  execution.report(0.0, fit_stage);
+  const RadialGrid grid = read_resolved_grid(surface, degree, execution);
+  const std::vector<double> coefficients = project(grid, degree, execution);
+  execution.report(0.6, fit_stage);
+  const AreaSamples samples = sample_by_area(surface, grid, execution);
+  // The series of a lower degree has the first coefficients. Tries every degree, so that a higher
+  // request never gives a lower degree than a lower request.
+  for (int trial = degree; trial >= 0; --trial) {
+    execution.report(0.8, fit_stage);
+    const auto end = coefficients.begin() + static_cast<std::ptrdiff_t>(harmonic_count(trial));
+    HarmonicSurface series({coefficients.begin(), end});
+    HarmonicFitReport report;
+    report.smallest_radius = smallest_radius(series, execution);
+    if (!(report.smallest_radius > 0.0)) continue;
+    report.requested_degree = degree;
+    report.degree = trial;
+    report.limit = trial < degree ? DegreeLimit::Radius : DegreeLimit::None;
+    report.rays = grid.radii.size();
+    report.residual = rms_distance(samples, series, execution);
+    execution.report(1.0, fit_stage);
+    return {std::move(series), report};
+  }
+  throw Error(ErrorCode::NumericalFailure,
+              "No spherical-harmonic series of degree " + std::to_string(degree) +
+                  " or lower describes the surface with a positive radius everywhere. Check that "
+                  "the mesh is closed around its centre.");
 }
 
 void scale(HarmonicFitReport& report, double unit) {

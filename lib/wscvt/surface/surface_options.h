@@ -32,9 +32,7 @@ inline constexpr double usual_overhang_limit_percent = 5.0;
 
 /// Reason why a series has no higher degree.
 enum class DegreeLimit {
-  None,       ///< it has the requested degree
-  Points,     ///< fewer than two points per coefficient
-  Condition,  ///< the points are too uneven to separate the coefficients
+  None,    ///< it has the requested degree
   Radius,  ///< at a higher degree the series is not positive everywhere: a long, flat or sharp body
 };
 
@@ -44,8 +42,6 @@ struct EnumerationTable<DegreeLimit> {
   static constexpr std::string_view subject = "limit of the degree";
   static constexpr Enumerator<DegreeLimit> rows[] = {
       {DegreeLimit::None, "none", "as requested"},
-      {DegreeLimit::Points, "points", "fewer than two points per coefficient"},
-      {DegreeLimit::Condition, "condition", "the points are spread too unevenly"},
       {DegreeLimit::Radius, "radius", "a series of higher degree is not positive everywhere"},
   };
 };
