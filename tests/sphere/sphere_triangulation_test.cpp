@@ -30,7 +30,7 @@ void expect_closed_sphere(const SphereTriangulation& triangulation,
     ASSERT_GE(o, 0);
     ASSERT_EQ(triangulation.opposite()[o], h);
     const std::int32_t from = triangulation.origin(h);
-    const std::int32_t to = triangulation.origin(SphereTriangulation::next(h));
+    const std::int32_t to = triangulation.origin(next_half_edge(h));
     ASSERT_EQ(triangulation.origin(o), to);
     ASSERT_NE(from, to);
     ASSERT_TRUE(directed.emplace(from, to).second) << "edge " << from << "-" << to << " twice";
@@ -185,9 +185,9 @@ TEST(SphereTriangulation, SurfaceFlipsMakeOppositeAnglesSumToAtMostPi) {
     EXPECT_TRUE(repair.complete());
     expect_closed_sphere(triangulation, seeds);
     const auto angle = [&](std::int32_t h) {
-      const Vector3& apex = positions[triangulation.origin(SphereTriangulation::previous(h))];
+      const Vector3& apex = positions[triangulation.origin(previous_half_edge(h))];
       const Vector3 a = positions[triangulation.origin(h)] - apex;
-      const Vector3 b = positions[triangulation.origin(SphereTriangulation::next(h))] - apex;
+      const Vector3 b = positions[triangulation.origin(next_half_edge(h))] - apex;
       return std::atan2(a.cross(b).norm(), a.dot(b));
     };
     for (std::int32_t h = 0; h < static_cast<std::int32_t>(triangulation.opposite().size()); ++h) {

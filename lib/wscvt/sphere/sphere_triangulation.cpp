@@ -19,7 +19,6 @@
 
 #include "wscvt/base/convex_hull.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/sphere/sphere_sampling.h"
@@ -173,16 +172,9 @@ bool SphereTriangulation::is_flippable(std::int32_t half_edge,
   const std::int32_t other = opposite_[half_edge];
   const Vector3& a = seeds[origin(half_edge)];
   const Vector3& b = seeds[origin(other)];
-  const Vector3& c = seeds[origin(previous(half_edge))];
-  const Vector3& d = seeds[origin(previous(other))];
+  const Vector3& c = seeds[apex(half_edge)];
+  const Vector3& d = seeds[apex(other)];
   return counter_clockwise(c, a, d) && counter_clockwise(d, b, c);
-}
-
-void SphereTriangulation::flip(std::int32_t half_edge) {
-  const std::int32_t t = half_edge / 3 * 3;
-  const std::int32_t u = opposite_[half_edge] / 3 * 3;
-  flip_edge(half_edge, triangles_, opposite_);
-  for (const std::int32_t h : {t, t + 1, u, u + 1}) first_half_edge_[origin(h)] = h;
 }
 
 template <class NeedsFlip>
@@ -240,10 +232,13 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       }
       const std::int32_t t0 = h / 3 * 3;
       const std::int32_t t1 = opposite_[h] / 3 * 3;
-      flip(h);
+      flip_edge(h, triangles_, opposite_);
       ++repair.flips;
       progress = true;
-      for (const std::int32_t edge : {t0, t0 + 1, t1, t1 + 1}) stack.push_back(edge);
+      for (const std::int32_t edge : {t0, t0 + 1, t1, t1 + 1}) {
+        first_half_edge_[origin(edge)] = edge;
+        stack.push_back(edge);
+      }
     }
     // Not swapped, because edges that the limit leaves on the stack also count as stuck.
     stack.insert(stack.end(), stuck.begin(), stuck.end());
@@ -267,8 +262,8 @@ SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vect
       seeds,
       [&](std::int32_t h) {
         const std::int32_t other = opposite_[h];
-        return orientation(lifted[origin(h)], lifted[origin(other)], lifted[origin(previous(h))],
-                           lifted[origin(previous(other))]) > 0;
+        return orientation(lifted[origin(h)], lifted[origin(other)], lifted[apex(h)],
+                           lifted[apex(other)]) > 0;
       },
       execution);
 }
@@ -282,8 +277,8 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         const std::int32_t other = opposite_[h];
         const Vector3& a = positions[origin(h)];
         const Vector3& b = positions[origin(other)];
-        const Vector3& c = positions[origin(previous(h))];
-        const Vector3& d = positions[origin(previous(other))];
+        const Vector3& c = positions[apex(h)];
+        const Vector3& d = positions[apex(other)];
         // The angles at c and d sum to more than pi if cot + cot < 0.
         const double cosine_c = (a - c).dot(b - c);
         const double cosine_d = (a - d).dot(b - d);
@@ -298,11 +293,10 @@ SphereTriangulation::Repair SphereTriangulation::restore_surface_delaunay(
         // Three seeds of a lattice often lie on one great circle, except for rounding. The exact
         // predicate then allows a triangle between them, but rounding of its positions makes it
         // flat.
-        const std::int32_t ends[] = {origin(h), origin(other)};
-        const Vector3& apex_c = seeds[origin(previous(h))];
-        const Vector3& apex_d = seeds[origin(previous(other))];
-        return !is_nearly_flat(apex_c, seeds[ends[0]], apex_d) &&
-               !is_nearly_flat(apex_d, seeds[ends[1]], apex_c);
+        const Vector3& apex_c = seeds[apex(h)];
+        const Vector3& apex_d = seeds[apex(other)];
+        return !is_nearly_flat(apex_c, seeds[origin(h)], apex_d) &&
+               !is_nearly_flat(apex_d, seeds[origin(other)], apex_c);
       },
       execution);
 }
@@ -374,8 +368,8 @@ std::vector<Triangle> sphere_delaunay(const std::vector<Vector3>& seeds,
 }
 
 int orientation(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const auto point = [](const Vector3& p) { return ExactPoint(p.x(), p.y(), p.z()); };
-  return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
+  return static_cast<int>(
+      CGAL::orientation(exact_point(a), exact_point(b), exact_point(c), exact_point(d)));
 }
 
 }  // namespace wscvt

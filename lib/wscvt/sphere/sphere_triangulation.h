@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
+#include "wscvt/base/half_edges.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
 
 /// A triangulation of the whole sphere whose vertices are unit vectors ("seeds"): 2 N - 4
 /// triangles, counter-clockwise seen from outside. It is built by exact predicates. When the seeds
-/// move, edge flips update it.
-///
-/// Half-edge 3 t + k runs from corner k of triangle t to corner (k + 1) % 3.
+/// move, edge flips update it. Half-edges are defined in half_edges.h.
 class SphereTriangulation {
  public:
   /// Builds the regular triangulation (weighted Delaunay) of the seeds: the convex hull of p exp(w
@@ -47,15 +46,9 @@ class SphereTriangulation {
   /// A half-edge that starts at each vertex.
   const std::vector<std::int32_t>& first_half_edge() const { return first_half_edge_; }
 
-  static std::int32_t next(std::int32_t half_edge) {
-    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
-  }
-  static std::int32_t previous(std::int32_t half_edge) {
-    return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
-  }
-  std::int32_t origin(std::int32_t half_edge) const {
-    return triangles_[half_edge / 3][half_edge % 3];
-  }
+  std::int32_t origin(std::int32_t half_edge) const { return origin_of(triangles_, half_edge); }
+  /// The corner of the half-edge's triangle opposite to it.
+  std::int32_t apex(std::int32_t half_edge) const { return origin(previous_half_edge(half_edge)); }
 
   /// The result of a repair by flips.
   struct Repair {
@@ -79,18 +72,14 @@ class SphereTriangulation {
                                   const std::vector<Vector3>& positions,
                                   const Execution& execution);
 
-  /// Whether the half-edge's edge may be flipped: both new triangles must be counter-clockwise on
-  /// the sphere.
-  bool is_flippable(std::int32_t half_edge, const std::vector<Vector3>& seeds) const;
-
-  /// Replaces the edge by the other diagonal of its two triangles.
-  void flip(std::int32_t half_edge);
-
  private:
   SphereTriangulation() = default;
   /// Triangulates. Returns null or the reason of a failure.
   const char* build(const std::vector<Vector3>& seeds, const std::vector<double>& weights,
                     const Execution& execution);
+  /// Whether the half-edge's edge may be flipped: both new triangles must be counter-clockwise on
+  /// the sphere.
+  bool is_flippable(std::int32_t half_edge, const std::vector<Vector3>& seeds) const;
   template <class NeedsFlip>
   Repair flip_while(const std::vector<Vector3>& seeds, const NeedsFlip& needs_flip,
                     const Execution& execution);

@@ -138,8 +138,8 @@ RelaxationResult relax_multilevel(std::vector<Vector3> start, int count, const S
     // Reports counts of all levels, but displacements and outcome of the last.
     const int rebuilds = result.report.rebuilds;
     const double weight_scale = result.report.weight_scale;
-    result = relax(std::move(fine.seeds), std::move(triangulation), model, options_of(level),
-                   execution_of(level));
+    result = relax(std::move(fine.seeds), model, options_of(level), execution_of(level),
+                   std::move(triangulation));
     result.report.rebuilds += rebuilds;
     result.report.weight_scale = std::min(result.report.weight_scale, weight_scale);
   }

@@ -67,7 +67,7 @@ void compute_power_cells(const SphereTriangulation& triangulation,
     std::int32_t h = first;
     Vector3 a = cells.vertices[h / 3] - site;
     do {
-      h = opposite[SphereTriangulation::previous(h)];
+      h = opposite[previous_half_edge(h)];
       const Vector3 b = cells.vertices[h / 3] - site;
       const double fan = 0.5 * a.cross(b).dot(site);
       area += fan;

@@ -90,35 +90,26 @@ class Evaluation {
   // Computes h and the standard deviation of (cell area / target).
   void compare(const std::vector<Vector3>& seeds) {
     const std::size_t count = seeds.size();
-    struct Sums {
-      double area = 0.0;
-      double other = 0.0;
-      Sums& operator+=(const Sums& sums) {
-        area += sums.area;
-        other += sums.other;
-        return *this;
-      }
-    };
+    using Sums = Eigen::Vector2d;
+    const Sums zero = Sums::Zero();
     const Sums sums =
-        execution_.parallel_sum_of(count, seed_block, Sums(), [&](std::size_t i, Sums& part) {
-          part.area += cells_.areas[i];
-          part.other += weights_.empty() ? 0.0 : weights_[i];
+        execution_.parallel_sum_of(count, seed_block, zero, [&](std::size_t i, Sums& part) {
+          part += Sums(cells_.areas[i], weights_.empty() ? 0.0 : weights_[i]);
         });
-    const double mean_area = sums.area / static_cast<double>(count);
-    const double mean_weight = sums.other / static_cast<double>(count);
+    const double mean_area = sums[0] / static_cast<double>(count);
+    const double mean_weight = sums[1] / static_cast<double>(count);
     const auto target = [&](std::size_t i) {
       if (weights_.empty()) return mean_area;
       return std::max(smallest_cell_share * mean_area,
                       mean_area + cell_area_per_weight * (weights_[i] - mean_weight));
     };
     const Sums ratios =
-        execution_.parallel_sum_of(count, seed_block, Sums(), [&](std::size_t i, Sums& part) {
+        execution_.parallel_sum_of(count, seed_block, zero, [&](std::size_t i, Sums& part) {
           const double ratio = cells_.areas[i] / target(i);
-          part.area += ratio;
-          part.other += ratio * ratio;
+          part += Sums(ratio, ratio * ratio);
         });
-    const double mean_ratio = ratios.area / static_cast<double>(count);
-    const double variance = ratios.other / static_cast<double>(count) - mean_ratio * mean_ratio;
+    const double mean_ratio = ratios[0] / static_cast<double>(count);
+    const double variance = ratios[1] / static_cast<double>(count) - mean_ratio * mean_ratio;
     step_.area_spread = std::sqrt(std::max(0.0, variance));
     step_.displacement = std::sqrt(mean_square(seeds, cells_.centroids, execution_) / mean_area);
     step_.flips = flips_;
@@ -151,10 +142,25 @@ bool try_evaluation(Evaluation& evaluation, const std::vector<Vector3>& before,
   return false;
 }
 
-RelaxationResult relax_from(std::vector<Vector3> seeds,
-                            std::optional<SphereTriangulation> triangulation,
-                            const SeedModel& model, const RelaxationOptions& options,
-                            const Execution& execution) {
+/// Returns why a relaxation ends at `step`; empty if it continues.
+std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
+                                            const RelaxationOptions& options, int iterations) {
+  if (step.displacement < options.displacement_tolerance &&
+      step.area_spread < options.area_tolerance) {
+    return RelaxationOutcome::Converged;
+  }
+  // Below this fraction of the tolerance, seeds are at rest.
+  constexpr double rest = 0.01;
+  if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
+  if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
+  return std::nullopt;
+}
+
+}  // namespace
+
+RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
+                       const RelaxationOptions& options, const Execution& execution,
+                       std::optional<SphereTriangulation> triangulation) {
   const std::size_t count = seeds.size();
   if (count < 4) refuse("Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
   RelaxationReport report;
@@ -205,32 +211,6 @@ RelaxationResult relax_from(std::vector<Vector3> seeds,
   }
   return {std::move(seeds), evaluation.take_triangulation(), evaluation.take_areas(),
           std::move(report)};
-}
-
-}  // namespace
-
-RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
-                       const RelaxationOptions& options, const Execution& execution) {
-  return relax_from(std::move(seeds), std::nullopt, model, options, execution);
-}
-
-RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
-                       const SeedModel& model, const RelaxationOptions& options,
-                       const Execution& execution) {
-  return relax_from(std::move(seeds), std::move(triangulation), model, options, execution);
-}
-
-std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
-                                            const RelaxationOptions& options, int iterations) {
-  if (step.displacement < options.displacement_tolerance &&
-      step.area_spread < options.area_tolerance) {
-    return RelaxationOutcome::Converged;
-  }
-  // Below this fraction of the tolerance, seeds are at rest.
-  constexpr double rest = 0.01;
-  if (step.displacement < rest * options.displacement_tolerance) return RelaxationOutcome::Settled;
-  if (iterations >= options.maximum_iterations) return RelaxationOutcome::IterationLimit;
-  return std::nullopt;
 }
 
 }  // namespace wscvt

@@ -32,17 +32,11 @@ struct RelaxationResult {
 ///
 /// Throws Error(InvalidInput) for fewer than 4 seeds, Error(NumericalFailure) if the seeds cannot
 /// be triangulated, Error(Cancelled).
+///
+/// `triangulation` of the seeds saves building one.
 RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
-                       const RelaxationOptions& options, const Execution& execution);
-
-/// Relaxes from a triangulation of the seeds, which saves building one.
-RelaxationResult relax(std::vector<Vector3> seeds, SphereTriangulation triangulation,
-                       const SeedModel& model, const RelaxationOptions& options,
-                       const Execution& execution);
-
-/// Returns why a relaxation ends at `step`; empty if it continues.
-std::optional<RelaxationOutcome> outcome_at(const RelaxationStep& step,
-                                            const RelaxationOptions& options, int iterations);
+                       const RelaxationOptions& options, const Execution& execution,
+                       std::optional<SphereTriangulation> triangulation = std::nullopt);
 
 /// Detects seeds that no longer approach rest, as under steep weightings on rough scans, whose
 /// flips never end: displacements of 0.05 h from the 70th iteration to the 1000th, at a constant

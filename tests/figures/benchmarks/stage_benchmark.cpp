@@ -141,7 +141,7 @@ void relaxation_step(benchmark::State& state) {
   RelaxationResult state_of_rest = relax(fibonacci_lattice(nodes), model, options, execution);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        relax(state_of_rest.seeds, state_of_rest.triangulation, model, options, execution));
+        relax(state_of_rest.seeds, model, options, execution, state_of_rest.triangulation));
   }
   // One evaluation at the start and one after each of the steps.
   count(state, nodes * (options.maximum_iterations + std::int64_t{1}));
