@@ -33,6 +33,16 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int dire
   return result;
 }
 
+Range range_along(const std::vector<Vector3>& points, const Vector3& direction) {
+  Range range = {direction.dot(points.front()), direction.dot(points.front())};
+  for (const Vector3& p : points) {
+    const double place = direction.dot(p);
+    range.lowest = std::min(range.lowest, place);
+    range.highest = std::max(range.highest, place);
+  }
+  return range;
+}
+
 Eigen::Matrix3d frame_of(const std::vector<Vector3>& points) {
   Vector3 mean = Vector3::Zero();
   for (const Vector3& p : points) mean += (p - points.front()) / static_cast<double>(points.size());

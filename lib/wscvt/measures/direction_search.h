@@ -127,6 +127,16 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int dire
 inline constexpr int thinning_directions = 2000;
 inline constexpr int coarse_directions = 200;
 
+/// The range of places along a direction.
+struct Range {
+  double lowest = 0.0;
+  double highest = 0.0;
+  double width() const { return highest - lowest; }
+};
+
+/// Returns the range of at least one point along a direction.
+Range range_along(const std::vector<Vector3>& points, const Vector3& direction);
+
 /// Returns the axes of a point set's second moments, which turn with the points. They are
 /// right-handed; the first two point to where the points reach farther.
 Eigen::Matrix3d frame_of(const std::vector<Vector3>& points);

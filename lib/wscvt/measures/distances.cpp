@@ -169,18 +169,14 @@ struct DistanceSums {
   }
 };
 
-DistanceSums sums_of(const std::vector<double>& distances, const Execution& execution) {
-  return execution.parallel_sum_of(distances.size(), distance_block, DistanceSums(),
-                                   [&](std::size_t i, DistanceSums& part) {
-                                     const double d = distances[i];
-                                     part.sum += d;
-                                     part.squares += d * d;
-                                     part.maximum = std::max(part.maximum, d);
-                                   });
-}
-
 OneSidedDistance of_samples(const std::vector<double>& distances, const Execution& execution) {
-  const DistanceSums sums = sums_of(distances, execution);
+  const DistanceSums sums = execution.parallel_sum_of(
+      distances.size(), distance_block, DistanceSums(), [&](std::size_t i, DistanceSums& part) {
+        const double d = distances[i];
+        part.sum += d;
+        part.squares += d * d;
+        part.maximum = std::max(part.maximum, d);
+      });
   const auto count = static_cast<double>(distances.size());
   return {sums.maximum, std::sqrt(sums.squares / count), sums.sum / count};
 }

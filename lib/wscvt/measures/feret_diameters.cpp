@@ -60,20 +60,14 @@ Pair moved_apart(Pair pair, const std::vector<Vector3>& points) {
 }
 
 double width_along(const std::vector<Vector3>& points, const Vector3& direction) {
-  double lowest = direction.dot(points.front());
-  double highest = lowest;
-  for (const Vector3& p : points) {
-    lowest = std::min(lowest, direction.dot(p));
-    highest = std::max(highest, direction.dot(p));
-  }
-  return highest - lowest;
+  return range_along(points, direction).width();
 }
 
 /// Sections of the mesh by planes perpendicular to a direction.
 class Sections {
  public:
   Sections(const IndexedMesh& mesh, const Vector3& normal)
-      : mesh_(mesh), normal_(normal), x_(normal.unitOrthogonal()), y_(normal.cross(x_)) {
+      : mesh_(mesh), x_(normal.unitOrthogonal()), y_(normal.cross(x_)) {
     heights_.reserve(mesh.points.size());
     for (const Vector3& p : mesh.points) heights_.push_back(normal.dot(p));
     // Uses the faces' corners, because points without a face do not count.
@@ -90,7 +84,6 @@ class Sections {
   double height(std::size_t plane) const {
     return lowest_ + (static_cast<double>(plane) + 0.5) * spacing();
   }
-  Vector3 in_space(const Vector2& p) const { return p.x() * x_ + p.y() * y_; }
   Vector2 in_plane(const Vector3& v) const { return {x_.dot(v), y_.dot(v)}; }
 
   /// Returns the ends, in pairs, of the segments in which the plane cuts faces.
@@ -130,7 +123,6 @@ class Sections {
   }
 
   const IndexedMesh& mesh_;
-  Vector3 normal_;
   Vector3 x_;
   Vector3 y_;
   std::vector<double> heights_;

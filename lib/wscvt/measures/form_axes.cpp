@@ -52,31 +52,15 @@ struct Frame {
   Vector3 y;
 };
 
-struct Range {
-  double lowest;
-  double highest;
-};
-
-Range range_along(const Vector3& direction, const std::vector<Vector3>& points) {
-  Range range = {direction.dot(points.front()), direction.dot(points.front())};
-  for (const Vector3& p : points) {
-    const double place = direction.dot(p);
-    range.lowest = std::min(range.lowest, place);
-    range.highest = std::max(range.highest, place);
-  }
-  return range;
-}
-
 /// Returns the smallest box about points with one edge along `direction`. `hull_of` returns planar
 /// hulls.
 template <class HullOf>
 Box box_along(const Vector3& direction, const std::vector<Vector3>& points, const HullOf& hull_of) {
   const Frame frame(direction);
   std::vector<Vector2> flat = frame.flat(points);
-  const Range heights = range_along(direction, points);
   const Rectangle rectangle = smallest_rectangle(hull_of(flat));
   const Vector3 along = rectangle.side.x() * frame.x + rectangle.side.y() * frame.y;
-  return {(heights.highest - heights.lowest) * rectangle.area(),
+  return {range_along(points, direction).width() * rectangle.area(),
           {direction, along, direction.cross(along)}};
 }
 
@@ -87,14 +71,10 @@ class NearbyBoxes {
   /// Directions within `angle` of each other, radians, are near.
   NearbyBoxes(const std::vector<Vector3>& points, double angle)
       : points_(points), largest_angle_(angle) {
-    Vector3 low = points.front();
-    Vector3 high = points.front();
+    Eigen::AlignedBox3d box;
+    for (const Vector3& p : points) box.extend(p);
     for (const Vector3& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    for (const Vector3& p : points) {
-      diameter_ = std::max(diameter_, (2.0 * p - low - high).norm());
+      diameter_ = std::max(diameter_, (2.0 * p - box.min() - box.max()).norm());
     }
   }
 
@@ -134,9 +114,9 @@ class NearbyBoxes {
     const Frame frame(middle);
     std::vector<Vector2> flat = frame.flat(points);
     const std::vector<Vector2> hull = planar_hull(flat);
-    const Range heights = range_along(middle, points);
+    const Range heights = range_along(points, middle);
     const double ahead = angle * diameter_;
-    const double across = angle * (heights.highest - heights.lowest + 0.5 * ahead);
+    const double across = angle * (heights.width() + 0.5 * ahead);
     std::vector<Vector2> outward;
     std::vector<double> reach;
     for (std::size_t k = 0; k < hull.size(); ++k) {
@@ -214,10 +194,7 @@ FormAxes oriented_box_axes(const std::vector<Vector3>& points, const Execution& 
   const Box box = settled(about, about.box(smallest.direction));
 
   std::array<double, 3> edges{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Range range = range_along(box.axes[k], local);
-    edges[k] = range.highest - range.lowest;
-  }
+  for (std::size_t k = 0; k < 3; ++k) edges[k] = range_along(local, box.axes[k]).width();
   std::sort(edges.begin(), edges.end());
   return {edges[0], edges[1], edges[2]};
 }

@@ -141,13 +141,11 @@ void climb(const MeshDistance& surface, std::size_t face, InscribedSphere& spher
 /// The branch-and-bound search.
 class SphereSearch {
  public:
-  explicit SphereSearch(const MeshDistance& surface) : surface_(surface) {}
-
-  void begin(const Vector3& centre, double half_edge) {
+  SphereSearch(const MeshDistance& surface, const Eigen::AlignedBox3d& box) : surface_(surface) {
     Cell root;
-    root.centre = centre;
-    root.half_edge = half_edge;
-    root.bound = diagonal * 2.0 * half_edge;
+    root.centre = 0.5 * (box.min() + box.max());
+    root.half_edge = 0.5 * box.sizes().maxCoeff();
+    root.bound = diagonal * 2.0 * root.half_edge;
     measure(root, false, 0.0);
     keep(root);
   }
@@ -250,16 +248,11 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
         "encloses a volume.");
   }
   const MeshDistance surface(mesh, execution);
-  Vector3 lower = mesh.points[mesh.triangles.front()[0]];
-  Vector3 upper = lower;
+  Eigen::AlignedBox3d box;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) {
-      lower = lower.cwiseMin(mesh.points[v]);
-      upper = upper.cwiseMax(mesh.points[v]);
-    }
+    for (const std::int32_t v : t) box.extend(mesh.points[v]);
   }
-  SphereSearch search(surface);
-  search.begin(0.5 * (lower + upper), 0.5 * (upper - lower).maxCoeff());
+  SphereSearch search(surface, box);
   while (!search.is_done()) {
     search.refine(execution);
     execution.report(search.share_done(), stage);

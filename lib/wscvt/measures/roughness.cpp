@@ -127,15 +127,7 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
   if (rings < 1) {
     refuse("The number of parallels is " + std::to_string(rings) + ". Give 1 or more.");
   }
-  struct Sums {
-    double slope = 0.0;
-    double area = 0.0;
-    Sums& operator+=(const Sums& other) {
-      slope += other.slope;
-      area += other.area;
-      return *this;
-    }
-  };
+  using Sums = Eigen::Vector2d;  // of squared slopes and of areas
   const auto count = static_cast<std::size_t>(rings);
   const double step = pi / rings;
   std::vector<double> cosines(2 * count);
@@ -146,8 +138,8 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
     sines[k] = portable::sin(phi);
   }
   const Sums sums =
-      execution.parallel_sum(count, 4, Sums(), [&](std::size_t begin, std::size_t end) {
-        Sums part;
+      execution.parallel_sum(count, 4, Sums(Sums::Zero()), [&](std::size_t begin, std::size_t end) {
+        Sums part = Sums::Zero();
         std::vector<Vector3> directions(2 * count);
         std::vector<RadialJet> jets(2 * count);
         for (std::size_t ring = begin; ring < end; ++ring) {
@@ -163,13 +155,12 @@ double printed_sdq(const RadialSurface& surface, int rings, const Execution& exe
             const Vector3 east(-sines[k], cosines[k], 0.0);
             const double r_theta = jets[k].gradient.dot(south);
             const double r_phi = sine * jets[k].gradient.dot(east);
-            part.slope += r_theta * r_theta + r_phi * r_phi;
-            part.area += sine * area_element(jets[k]);
+            part += Sums(r_theta * r_theta + r_phi * r_phi, sine * area_element(jets[k]));
           }
         }
         return part;
       });
-  return std::sqrt(sums.slope / sums.area);
+  return std::sqrt(sums[0] / sums[1]);
 }
 
 }  // namespace wscvt

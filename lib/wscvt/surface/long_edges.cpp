@@ -99,18 +99,13 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 std::vector<std::int32_t> space_order(const std::vector<Vector3>& points) {
-  if (points.empty()) return {};
-  Vector3 low = points.front();
-  Vector3 high = points.front();
-  for (const Vector3& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const double extent = (high - low).maxCoeff();
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
+  const double extent = box.sizes().maxCoeff();
   const double scale = extent > 0.0 ? ((1 << bits_a_coordinate) - 1) / extent : 0.0;
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vector3 at = scale * (points[i] - low);
+    const Vector3 at = scale * (points[i] - box.min());
     std::uint64_t key = 0;
     for (int k = 0; k < 3; ++k) key |= spread_bits(static_cast<std::uint64_t>(at[k])) << k;
     keys[i] = {key, static_cast<std::int32_t>(i)};

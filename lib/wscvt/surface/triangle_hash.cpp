@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/box_grid.h"
+
 namespace wscvt {
 
 namespace {
@@ -100,18 +102,13 @@ std::size_t TriangleHash::bucket(std::int64_t x, std::int64_t y, std::int64_t z)
   return static_cast<std::size_t>(key ^ (key >> 32)) & mask_;
 }
 
-TriangleHash::Box TriangleHash::box_of(const std::array<Vector3, 3>& corners) {
-  return {corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
-          corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
-}
-
 template <class Visit>
 void TriangleHash::visit_cells(const Box& box, const Visit& visit) const {
   std::array<std::int64_t, 3> low{};
   std::array<std::int64_t, 3> high{};
   for (int k = 0; k < 3; ++k) {
-    low[k] = static_cast<std::int64_t>(std::floor(box.low[k] / cell_));
-    high[k] = static_cast<std::int64_t>(std::floor(box.high[k] / cell_));
+    low[k] = static_cast<std::int64_t>(std::floor(box.min()[k] / cell_));
+    high[k] = static_cast<std::int64_t>(std::floor(box.max()[k] / cell_));
   }
   for (std::int64_t z = low[2]; z <= high[2]; ++z) {
     for (std::int64_t y = low[1]; y <= high[1]; ++y) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -36,16 +37,12 @@ class TriangleHash {
     std::int32_t triangle;
     std::int32_t next;
   };
-  struct Box {
-    Vector3 low;
-    Vector3 high;
-  };
-  static Box box_of(const std::array<Vector3, 3>& corners);
+  using Box = Eigen::AlignedBox3d;
   static bool part(const Box& a, const Box& b) {
     // Without branches, which processors predict badly here.
     const auto apart = [&](int k) {
-      return static_cast<unsigned>(a.low[k] > b.high[k]) |
-             static_cast<unsigned>(b.low[k] > a.high[k]);
+      return static_cast<unsigned>(a.min()[k] > b.max()[k]) |
+             static_cast<unsigned>(b.min()[k] > a.max()[k]);
     };
     return (apart(0) | apart(1) | apart(2)) != 0U;
   }
