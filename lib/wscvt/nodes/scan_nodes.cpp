@@ -11,6 +11,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/nodes/coarsening.h"
 #include "wscvt/nodes/equalization.h"
@@ -147,7 +148,7 @@ int fewest_nodes(std::size_t genus) {
 
 [[noreturn]] void refuse_too_few(int count, std::size_t genus, int enough) {
   const int fewest = fewest_nodes(genus);
-  const std::string handles = std::to_string(genus) + (genus == 1 ? " handle" : " handles");
+  const std::string handles = format_count(genus, "handle");
   Sentence text =
       count < fewest
           ? "A closed mesh with " + handles + " needs at least " + std::to_string(fewest) +

@@ -174,9 +174,8 @@ std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh&
                                      const MeshDistance* to_grain, double ball_radius,
                                      const Execution& execution) {
   if (!(ball_radius > 0.0) || !std::isfinite(ball_radius)) {
-    throw Error(ErrorCode::InvalidInput, "The radius of the balls for the contact fit is " +
-                                             format_typed(ball_radius) +
-                                             ". Give a number above 0.");
+    refuse("The radius of the balls for the contact fit is " + format_typed(ball_radius) +
+           ". Give a number above 0.");
   }
   constexpr const char* stage = "Fitting the nodes to contacts";
   execution.report(0.0, stage);

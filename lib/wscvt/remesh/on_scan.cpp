@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/nodes/equalization.h"
 #include "wscvt/remesh/contact_fit.h"
 #include "wscvt/repair/handles.h"
@@ -40,10 +41,9 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
   const int genus = scan.report.genus;
   if (genus == 0) return {};
   if (options.handles.action == HandleAction::Refuse) {
-    throw Error(ErrorCode::InvalidInput,
-                "The scan has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
-                    " (tunnels through the grain), but the options do not allow handles. Use " +
-                    mention(HandleAction::Cut) + " or " + mention(HandleAction::Keep) + ".");
+    refuse("The scan has " + format_count(genus, "handle") +
+           " (tunnels through the grain), but the options do not allow handles. Use " +
+           mention(HandleAction::Cut) + " or " + mention(HandleAction::Keep) + ".");
   }
   if (options.handles.action == HandleAction::Cut && options.handles.length_limit > 0.0) {
     return cut_handles(scan, options.handles, execution);

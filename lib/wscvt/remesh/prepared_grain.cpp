@@ -73,12 +73,10 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
   // within five per cent.
   const double reach = 100.0 * fit.residual;
   if (!(target.percent < 0.95 * reach)) return;
-  throw Error(ErrorCode::InvalidInput,
-              "The allowed error is " + format_number(target.percent) +
-                  " % of the equivalent radius, but the SH surface itself is " +
-                  format_number(reach, 3) +
-                  " % off the scan. Nodes on it are not closer. Allow a larger error, raise " +
-                  mention(harmonic_degree_option) + ", or use " + mention(Method::OnScan) + ".");
+  refuse("The allowed error is " + format_number(target.percent) +
+         " % of the equivalent radius, but the SH surface itself is " + format_number(reach, 3) +
+         " % off the scan. Nodes on it are not closer. Allow a larger error, raise " +
+         mention(harmonic_degree_option) + ", or use " + mention(Method::OnScan) + ".");
 }
 
 /// Prepares the method in the options. This is where it is chosen.

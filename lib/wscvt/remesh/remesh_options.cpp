@@ -62,12 +62,11 @@ void check_options(const RemeshOptions& options) {
   const auto* published = std::get_if<AsPublishedOptions>(&options.method);
   if (published != nullptr && options.target.percent > 0.0 &&
       !takes_any_count(published->sampling)) {
-    throw Error(ErrorCode::InvalidInput, "The sampling " + key_of(published->sampling) +
-                                             " exists only for some numbers of nodes, so the "
-                                             "smallest number cannot be searched. Use --" +
-                                             std::string(EnumerationTable<Sampling>::key) +
-                                             " weighted or fibonacci, or --" +
-                                             std::string(error_target_option.key) + " 0.");
+    refuse("The sampling " + key_of(published->sampling) +
+           " exists only for some numbers of nodes, so the "
+           "smallest number cannot be searched. Use --" +
+           std::string(EnumerationTable<Sampling>::key) + " weighted or fibonacci, or --" +
+           std::string(error_target_option.key) + " 0.");
   }
 }
 

@@ -24,8 +24,7 @@ double error_percent(const RemeshResult& result, ErrorMeasure measure) {
       break;
   }
   if (!result.distances) {
-    throw Error(ErrorCode::InvalidInput,
-                "The result has no distances. Request them in the options of the remesh.");
+    refuse("The result has no distances. Request them in the options of the remesh.");
   }
   return 100.0 * result.distances->root_mean_square / equivalent_radius(result.scan.volume);
 }
@@ -38,15 +37,13 @@ void write_coefficients(const std::string& path, const RemeshResult& result) {
   } else if (!coefficients.radius.empty()) {
     write_harmonics(path, HarmonicSurface(coefficients.radius));
   } else if (!coefficients.map[0].empty() && of_shtools) {
-    throw Error(
-        ErrorCode::InvalidInput,
+    refuse(
         "A .sh file stores the coefficients of a radius, but these are of x, y and z. Write "
         "them to a .json file.");
   } else if (!coefficients.map[0].empty()) {
     write_harmonic_map(path, HarmonicMap(coefficients.map));
   } else {
-    throw Error(ErrorCode::InvalidInput,
-                "The result has no coefficients. Request them before remeshing.");
+    refuse("The result has no coefficients. Request them before remeshing.");
   }
 }
 

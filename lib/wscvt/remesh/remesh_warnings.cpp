@@ -52,22 +52,20 @@ void warn_of_handles(const RemeshResult& result, Sentences& warnings) {
   const OnScanReport* report = on_scan_report(result);
   if (report == nullptr) {
     if (result.input.genus == 0) return;
-    warnings.push_back("The scan has " + std::to_string(result.input.genus) +
-                       (result.input.genus == 1 ? " handle" : " handles") +
+    warnings.push_back("The scan has " + format_count(result.input.genus, "handle") +
                        " (tunnels through the grain). The published method closes them.");
     return;
   }
   const HandleReport& handles = report->handles;
   if (!handles.cut.empty()) {
     const std::size_t cut = handles.cut.size();
-    std::string text = std::to_string(cut) + (cut == 1 ? " handle" : " handles") + " of the scan " +
-                       (cut == 1 ? "was" : "were") + " cut. This changed its volume by " +
-                       format_percent(std::abs(handles.volume_change)) + ". The log says where.";
-    warnings.push_back(text);
+    warnings.push_back(format_count(cut, "handle") + " of the scan " + (cut == 1 ? "was" : "were") +
+                       " cut. This changed its volume by " +
+                       format_percent(std::abs(handles.volume_change)) + ". The log says where.");
   }
   if (handles.kept > 0) {
-    warnings.push_back("The grain has " + std::to_string(handles.kept) +
-                       (handles.kept == 1 ? " handle" : " handles") + " (tunnels through it).");
+    warnings.push_back("The grain has " + format_count(handles.kept, "handle") +
+                       " (tunnels through it).");
   }
 }
 
@@ -77,8 +75,7 @@ void warn_of_self_intersections(const RemeshResult& result, Sentences& warnings)
   const std::string nodes = std::to_string(result.mesh.points.size()) + " nodes";
   const std::size_t pairs = report->nodes.self_intersections;
   if (pairs == 0) return;
-  Sentence text = std::to_string(pairs) + (pairs == 1 ? " pair" : " pairs") +
-                  " of triangles of the remesh intersect. ";
+  Sentence text = format_count(pairs, "pair") + " of triangles of the remesh intersect. ";
   const std::size_t of_scan = report->nodes.scan_self_intersections;
   if (of_scan > 0) {
     text += "The scan has " + std::to_string(of_scan) + " such pairs itself. ";
@@ -269,8 +266,7 @@ void append_repair_warnings(const MeshCheckReport& input, const std::string& don
   }
   if (input.inner_components > 0) {
     warnings.push_back(
-        "The scan has " + std::to_string(input.inner_components) +
-        (input.inner_components == 1 ? " surface" : " surfaces") +
+        "The scan has " + format_count(input.inner_components, "surface") +
         " inside its outer one, around " + format_percent(input.inner_volume_fraction) +
         " of its volume. Only the outer one was " + done + ", as a body without pores.");
   }

@@ -38,13 +38,11 @@ int rounded(double count, int lower, int upper) {
 NodeCountSearch smallest_node_count(double target, int start, int lower, int upper,
                                     const std::function<double(int)>& error) {
   if (!(target > 0.0) || !std::isfinite(target)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The error target is " + std::to_string(target) + ". Give a positive percentage.");
+    refuse("The error target is " + std::to_string(target) + ". Give a positive percentage.");
   }
   if (lower < 1 || lower > upper) {
-    throw Error(ErrorCode::InvalidInput,
-                "The limits of the node count are " + std::to_string(lower) + " and " +
-                    std::to_string(upper) + ". Give them in ascending order.");
+    refuse("The limits of the node count are " + std::to_string(lower) + " and " +
+           std::to_string(upper) + ". Give them in ascending order.");
   }
   NodeCountSearch search;
   const auto attempt = [&](int count) {

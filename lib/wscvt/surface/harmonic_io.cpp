@@ -171,6 +171,16 @@ std::vector<double> coefficients_of(const std::string& path, const nlohmann::jso
   return coefficients;
 }
 
+void write_json(const std::string& path, const char* kind, int degree,
+                const nlohmann::ordered_json& coefficients) {
+  nlohmann::ordered_json json;
+  json["format"] = format_tag;
+  json["kind"] = kind;
+  json["degree"] = degree;
+  json["coefficients"] = coefficients;
+  write_file(path, json.dump(1) + "\n");
+}
+
 }  // namespace
 
 HarmonicSurface read_complex_harmonics(const std::string& path, int degree) {
@@ -278,23 +288,13 @@ HarmonicShape read_coefficients(const std::string& path, int degree) {
 }
 
 void write_harmonics(const std::string& path, const HarmonicSurface& surface) {
-  nlohmann::ordered_json json;
-  json["format"] = format_tag;
-  json["kind"] = radial_kind;
-  json["degree"] = surface.degree();
-  json["coefficients"] = surface.coefficients();
-  write_file(path, json.dump(1) + "\n");
+  write_json(path, radial_kind, surface.degree(), surface.coefficients());
 }
 
 void write_harmonic_map(const std::string& path, const HarmonicMap& map) {
-  nlohmann::ordered_json json;
-  json["format"] = format_tag;
-  json["kind"] = map_kind;
-  json["degree"] = map.degree();
-  for (std::size_t k = 0; k < 3; ++k) {
-    json["coefficients"][coordinate_names[k]] = map.coefficients()[k];
-  }
-  write_file(path, json.dump(1) + "\n");
+  nlohmann::ordered_json coefficients;
+  for (std::size_t k = 0; k < 3; ++k) coefficients[coordinate_names[k]] = map.coefficients()[k];
+  write_json(path, map_kind, map.degree(), coefficients);
 }
 
 }  // namespace wscvt

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "wscvt/base/box_grid.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
@@ -161,8 +162,8 @@ CrossingPairs crossing_pairs(const IndexedMesh& mesh, const Execution& execution
 
 std::string crossing_sentence(const CrossingPairs& pairs, const std::string& whose) {
   if (pairs.count == 0) return "";
-  return (pairs.is_all ? "" : "At least ") + std::to_string(pairs.count) +
-         (pairs.count == 1 ? " pair" : " pairs") + " of triangles of " + whose +
+  return (pairs.is_all ? "" : "At least ") + format_count(pairs.count, "pair") +
+         " of triangles of " + whose +
          " intersect. Where one sheet passes through another, the surface is not that of a body, "
          "and its volume is counted twice or not at all. Repair it there first.";
 }
