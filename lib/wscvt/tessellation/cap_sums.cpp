@@ -8,45 +8,23 @@
 
 namespace wscvt {
 
-namespace {
-
-/// Returns the nonzero columns of each row.
-std::vector<std::vector<std::ptrdiff_t>> filled_columns(const GridField& field) {
-  std::vector<std::vector<std::ptrdiff_t>> filled(static_cast<std::size_t>(field.rows));
-  for (std::size_t i = 0; i < field.values.size(); ++i) {
-    if (field.values[i] != 0.0) {
-      filled[i / field.columns()].push_back(static_cast<std::ptrdiff_t>(i % field.columns()));
-    }
-  }
-  return filled;
-}
-
-}  // namespace
-
-CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution) {
+std::vector<double> sum_over_caps(const GridField& field, double radius,
+                                  const Execution& execution) {
   const int rows = field.rows;
   const auto columns = static_cast<std::ptrdiff_t>(field.columns());
   const double spacing = pi / rows;
   const int reach = static_cast<int>(radius / spacing);
   const std::vector<double> cosines = SphereGrid::row_cosines(rows);
-  // If the nonzero columns of a row are few, each value is spread over its caps; if they
-  // are many, each cap is gathered, which reads memory in order. A scan of a dozen points fills a
-  // dozen of 32,768 nodes, and its caps must grow to the whole sphere.
-  const std::vector<std::vector<std::ptrdiff_t>> filled = filled_columns(field);
-  CapSums result;
-  std::vector<std::size_t> terms(static_cast<std::size_t>(rows), 0);  // of every row
-  result.sums.assign(field.values.size(), 0.0);
+  std::vector<double> sums(field.values.size(), 0.0);
   execution.parallel_for(rows, 4, [&](std::size_t begin, std::size_t end) {
     std::vector<double> kernel;
     std::vector<double> thrice(3 * static_cast<std::size_t>(columns));
     std::vector<double> row_sums(static_cast<std::size_t>(columns));
     for (std::size_t j = begin; j < end; ++j) {
       const int row = static_cast<int>(j);
-      double* target = result.sums.data() + j * columns;
+      double* target = sums.data() + j * columns;
       for (int other = std::max(0, row - reach); other <= std::min(rows - 1, row + reach);
            ++other) {
-        const std::vector<std::ptrdiff_t>& sources = filled[static_cast<std::size_t>(other)];
-        if (sources.empty()) continue;
         kernel.clear();
         for (std::ptrdiff_t shift = 0; shift <= columns / 2; ++shift) {
           const double chord_square =
@@ -56,31 +34,17 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
           if (shift > 0 && chord_square > radius * radius) break;
           kernel.push_back(portable::exp(-2.0 * chord_square / (radius * radius)));
         }
-        const double* source = field.values.data() + other * columns;
-        const auto width = static_cast<std::ptrdiff_t>(kernel.size()) - 1;
-        if (8 * static_cast<std::ptrdiff_t>(sources.size()) < columns) {
-          terms[j] += sources.size() * kernel.size();
-          for (const std::ptrdiff_t k : sources) {
-            target[k] += kernel[0] * source[k];
-            for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
-              const double value = kernel[shift] * source[k];
-              target[k + shift < columns ? k + shift : k + shift - columns] += value;
-              if (shift == columns / 2) continue;  // the same node in both directions
-              target[k >= shift ? k - shift : k - shift + columns] += value;
-            }
-          }
-          continue;
-        }
-        terms[j] += static_cast<std::size_t>(columns) * kernel.size();
         // The source is repeated three times, so that no index wraps. The inner loop runs over all
         // columns for one shift, so that the compiler can vectorize it, and each column still adds
         // its terms in the order of the shifts.
+        const double* source = field.values.data() + other * columns;
         for (std::ptrdiff_t k = 0; k < columns; ++k) {
           thrice[k] = thrice[k + columns] = thrice[k + 2 * columns] = source[k];
           row_sums[k] = kernel[0] * source[k];
         }
         const double* const middle = thrice.data() + columns;
-        for (std::ptrdiff_t shift = 1; shift <= width; ++shift) {
+        for (std::ptrdiff_t shift = 1; shift < static_cast<std::ptrdiff_t>(kernel.size());
+             ++shift) {
           const double weight = kernel[shift];
           const double* const right = middle + shift;
           const double* const left = middle - shift;
@@ -96,8 +60,7 @@ CapSums sum_over_caps(const GridField& field, double radius, const Execution& ex
       }
     }
   });
-  for (const std::size_t row : terms) result.terms += row;
-  return result;
+  return sums;
 }
 
 }  // namespace wscvt

@@ -38,15 +38,9 @@ struct GridField {
   }
 };
 
-/// Result of sum_over_caps.
-struct CapSums {
-  std::vector<double> sums;  ///< of every grid node
-  std::size_t terms = 0;     ///< number of products added, a measure of cost
-};
-
-/// Sums `field` over caps of chord `radius` about every grid node with weights exp(-2 (d /
-/// radius)^2). In mostly zero rows of the grid, as for a coarse scan, only nonzero values cost
-/// time.
-CapSums sum_over_caps(const GridField& field, double radius, const Execution& execution);
+/// Returns the sums of `field` over caps of chord `radius` about every grid node, with weights
+/// exp(-2 (d / radius)^2).
+std::vector<double> sum_over_caps(const GridField& field, double radius,
+                                  const Execution& execution);
 
 }  // namespace wscvt

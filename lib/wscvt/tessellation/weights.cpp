@@ -77,8 +77,8 @@ std::vector<double> smoothed_curvature(const RadialSurface& surface, int node_co
       measure.values[i] = share;
     }
   });
-  std::vector<double> result = sum_over_caps(moment, radius, execution).sums;
-  const std::vector<double> measures = sum_over_caps(measure, radius, execution).sums;
+  std::vector<double> result = sum_over_caps(moment, radius, execution);
+  const std::vector<double> measures = sum_over_caps(measure, radius, execution);
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = std::sqrt(result[i] / measures[i]);
   return result;
 }
