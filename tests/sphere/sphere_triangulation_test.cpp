@@ -141,7 +141,7 @@ TEST(SphereTriangulation, FlipsReachWhatBuildingFromScratchReaches) {
     }
     const std::vector<double> weights = moderate_weights(seeds);
     const auto repair = kept.restore_regular(seeds, weights, Execution(2));
-    ASSERT_TRUE(repair.complete());
+    ASSERT_TRUE(repair.complete);
     flips += repair.flips;
     expect_closed_sphere(kept, seeds);
     EXPECT_EQ(sorted_triangles(kept), SphereTriangulation(seeds, weights).triangles());
@@ -161,7 +161,7 @@ TEST(SphereTriangulation, FlipsEndOnSeedsThatAreNearlyCocircular) {
     for (const Vector3& p : grid) seeds.push_back((turn * p).normalized());
     SphereTriangulation kept(seeds, std::vector<Triangle>(start.triangles()));
     const auto repair = kept.restore_regular(seeds, {}, Execution(1));
-    EXPECT_TRUE(repair.complete());
+    EXPECT_TRUE(repair.complete);
     EXPECT_GT(repair.flips, 100);  // every cell is to be decided anew
     expect_closed_sphere(kept, seeds);
     EXPECT_EQ(kept.restore_regular(seeds, {}, Execution(1)).flips, 0);
@@ -182,7 +182,7 @@ TEST(SphereTriangulation, SurfaceFlipsMakeOppositeAnglesSumToAtMostPi) {
     SphereTriangulation triangulation(seeds);
     const auto repair = triangulation.restore_surface_delaunay(seeds, positions, Execution(1));
     EXPECT_GT(repair.flips, 0);
-    EXPECT_TRUE(repair.complete());
+    EXPECT_TRUE(repair.complete);
     expect_closed_sphere(triangulation, seeds);
     const auto angle = [&](std::int32_t h) {
       const Vector3& apex = positions[triangulation.origin(previous_half_edge(h))];
@@ -222,7 +222,7 @@ TEST(SphereTriangulation, ReportsTrianglesTurnedOver) {
   SphereTriangulation triangulation(seeds);
   std::swap(seeds[10], seeds[60]);
   const auto repair = triangulation.restore_regular(seeds, {}, Execution(1));
-  EXPECT_TRUE(repair.turned_over);
+  EXPECT_FALSE(repair.complete);
   EXPECT_EQ(repair.flips, 0);
 }
 
@@ -276,7 +276,7 @@ TEST(SphereTriangulation, RefusesWeightsThatCannotBeLifted) {
       EXPECT_EQ(error.code(), ErrorCode::NumericalFailure);
     }
     SphereTriangulation kept(seeds);
-    EXPECT_FALSE(kept.restore_regular(seeds, weights, Execution(1)).complete());
+    EXPECT_FALSE(kept.restore_regular(seeds, weights, Execution(1)).complete);
     expect_closed_sphere(kept, seeds);
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,6 +29,13 @@ inline Vector3 doubled_area_normal(const Vector3& a, const Vector3& b, const Vec
 /// Area of the triangle a, b, c.
 inline double triangle_area(const Vector3& a, const Vector3& b, const Vector3& c) {
   return 0.5 * doubled_area_normal(a, b, c).norm();
+}
+
+/// Returns the corners of triangle `t` of a mesh.
+template <class Mesh>
+std::array<Vector3, 3> corners_of(const Mesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return {mesh.points[a], mesh.points[b], mesh.points[c]};
 }
 
 /// Returns the barycentric weights of the point of the triangle a, b, c nearest to `p`: each >= 0,

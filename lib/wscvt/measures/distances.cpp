@@ -121,8 +121,7 @@ std::vector<double> distances_to_many(const IndexedMesh& mesh, const std::vector
   const std::size_t faces_a_part = std::max<std::size_t>(1 << 14, mesh.triangles.size() / 16 + 1);
   bounds = execution.parallel_sum_of(
       mesh.triangles.size(), faces_a_part, bounds, [&](std::size_t f, SmallestSquares& part) {
-        const auto& [a, b, c] = mesh.triangles[f];
-        const std::array<Vector3, 3> corners = {mesh.points[a], mesh.points[b], mesh.points[c]};
+        const std::array<Vector3, 3> corners = corners_of(mesh, f);
         const BoxGrid::Box box = box_of(corners);
         grid.visit(box, [&](std::int32_t ball) {
           const Vector3& point = points[ball];
@@ -303,16 +302,14 @@ double largest_distance(const IndexedMesh& from, const MeshDistance& to, double 
   const Largest of_vertices{farthest_vertex(vertices, to, found, execution)};
   const double least = 1e-5 * size_of(vertices);
   return execution
-      .parallel_sum(
-          from.triangles.size(), distance_block, of_vertices,
-          [&](std::size_t begin, std::size_t end) {
-            LargestDistance search(to, of_vertices.value, least);
-            for (std::size_t f = begin; f < end; ++f) {
-              const auto& [a, b, c] = from.triangles[f];
-              search.search({from.points[a], from.points[b], from.points[c]}, most_quartered);
-            }
-            return Largest{search.found()};
-          })
+      .parallel_sum(from.triangles.size(), distance_block, of_vertices,
+                    [&](std::size_t begin, std::size_t end) {
+                      LargestDistance search(to, of_vertices.value, least);
+                      for (std::size_t f = begin; f < end; ++f) {
+                        search.search(corners_of(from, f), most_quartered);
+                      }
+                      return Largest{search.found()};
+                    })
       .value;
 }
 

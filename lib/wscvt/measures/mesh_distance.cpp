@@ -45,11 +45,10 @@ class MeshDistance::Builder {
     middles_.reserve(mesh.triangles.size());
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
       if (f % faces_a_report == 0) execution.report(0.0, stage);
-      const auto face = static_cast<std::int32_t>(f);
-      const Corners corners = corners_of(face);
+      const Corners corners = corners_of(mesh, f);
       // The neighbours of a face without area cover it.
       if (!(triangle_area(corners[0], corners[1], corners[2]) > 0.0)) continue;
-      middles_.push_back({corners[0] + corners[1] + corners[2], face});
+      middles_.push_back({corners[0] + corners[1] + corners[2], static_cast<std::int32_t>(f)});
     }
   }
 
@@ -85,11 +84,6 @@ class MeshDistance::Builder {
     Part second() const { return {middle(), end, node + 2 * first_leaves()}; }
   };
 
-  Corners corners_of(std::int32_t face) const {
-    const Triangle& t = mesh_.triangles[face];
-    return {mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]};
-  }
-
   void split(const Part& part) {
     Vector3 low = middles_[part.begin].sum;
     Vector3 high = low;
@@ -123,11 +117,11 @@ class MeshDistance::Builder {
 
   void build(const Part& part) {
     if (part.is_leaf()) {
-      const Vector3 corner = corners_of(middles_[part.begin].face)[0];
+      const Vector3 corner = corners_of(mesh_, middles_[part.begin].face)[0];
       Node leaf{corner, corner, static_cast<std::int32_t>(part.node + 1),
                 static_cast<std::int32_t>(part.begin)};
       for (std::size_t i = part.begin; i < part.end; ++i) {
-        const Corners corners = corners_of(middles_[i].face);
+        const Corners corners = corners_of(mesh_, middles_[i].face);
         for (const Vector3& p : corners) {
           leaf.low = leaf.low.cwiseMin(p);
           leaf.high = leaf.high.cwiseMax(p);

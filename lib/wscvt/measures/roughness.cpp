@@ -80,10 +80,8 @@ HeightMoments moments_of(const Heights& heights, const std::vector<Triangle>& tr
 double least_cutoff(const IndexedMesh& mesh) {
   double area = 0.0;
   double sum = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vector3& a = mesh.points[index(t[0])];
-    const Vector3& b = mesh.points[index(t[1])];
-    const Vector3& c = mesh.points[index(t[2])];
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = corners_of(mesh, t);
     const double of_face = triangle_area(a, b, c);
     area += of_face;
     sum += of_face * ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 3.0;

@@ -225,7 +225,7 @@ class FitEquations {
   void add_samples(std::size_t t) {
     if (state_.of[t].empty()) return;
     const auto& [a, b, c] = mesh_.triangles[t];
-    const std::array<Vector3, 3> x = {mesh_.points[a], mesh_.points[b], mesh_.points[c]};
+    const std::array<Vector3, 3> x = corners_of(mesh_, t);
     const std::array<const StarShape*, 3> shapes = {&shapes_[a], &shapes_[b], &shapes_[c]};
     const Vector3 normal = normals_[t] / (lengths_[t] + 1e-300);
     FaceSystem& face = faces_[t];

@@ -117,7 +117,7 @@ const char* SphereTriangulation::build(const std::vector<Vector3>& seeds,
   if (covers_sphere(triangles, seeds, execution)) {
     set_triangles(std::move(triangles), seeds.size(), execution);
     // Also applies our own predicate to cocircular seeds, instead of CGAL's choice.
-    if (restore_regular(seeds, weights, execution).complete()) {
+    if (restore_regular(seeds, weights, execution).complete) {
       set_triangles(std::move(triangles_), seeds.size(), execution);
       return nullptr;
     }
@@ -201,13 +201,8 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
       }
     }
   });
+  if (std::find(turned_over.begin(), turned_over.end(), 1) != turned_over.end()) return {0, false};
   Repair repair;
-  for (const char over : turned_over) {
-    if (over != 0) {
-      repair.turned_over = true;
-      return repair;
-    }
-  }
   std::vector<std::int32_t> stack;
   for (const auto& edges : found) stack.insert(stack.end(), edges.begin(), edges.end());
   std::vector<std::int32_t> stuck;
@@ -245,16 +240,14 @@ SphereTriangulation::Repair SphereTriangulation::flip_while(const std::vector<Ve
     stuck.clear();
     if (stack.empty()) break;
   }
-  for (const std::int32_t h : stack) {
-    if (needs_flip(h)) ++repair.stuck;
-  }
+  repair.complete = std::none_of(stack.begin(), stack.end(), needs_flip);
   return repair;
 }
 
 SphereTriangulation::Repair SphereTriangulation::restore_regular(const std::vector<Vector3>& seeds,
                                                                  const std::vector<double>& weights,
                                                                  const Execution& execution) {
-  if (!can_be_lifted(weights)) return {0, 1, false};
+  if (!can_be_lifted(weights)) return {0, false};
   const std::vector<Vector3> storage =
       weights.empty() ? std::vector<Vector3>() : lift(seeds, weights);
   const std::vector<Vector3>& lifted = weights.empty() ? seeds : storage;

@@ -53,9 +53,9 @@ class SphereTriangulation {
   /// The result of a repair by flips.
   struct Repair {
     int flips = 0;
-    int stuck = 0;             ///< edges that ought to be flipped but cannot be
-    bool turned_over = false;  ///< a triangle is clockwise on the sphere; nothing was flipped
-    bool complete() const { return stuck == 0 && !turned_over; }
+    /// False if an edge ought to be flipped but cannot be, or if a triangle was clockwise on the
+    /// sphere; then nothing was flipped.
+    bool complete = true;
   };
 
   /// Flips edges until every edge is regular (Lawson 1977), after the seeds or their weights have
@@ -66,8 +66,7 @@ class SphereTriangulation {
 
   /// Flips edges until the two angles opposite to each edge sum to at most pi, measured on the
   /// surface mesh with vertices `positions` (Bobenko and Springborn 2007: intrinsic Delaunay). Does
-  /// not flip an edge if a triangle would not stay counter-clockwise on the sphere of `seeds`, and
-  /// counts it as stuck.
+  /// not flip an edge if a triangle would not stay counter-clockwise on the sphere of `seeds`.
   Repair restore_surface_delaunay(const std::vector<Vector3>& seeds,
                                   const std::vector<Vector3>& positions,
                                   const Execution& execution);

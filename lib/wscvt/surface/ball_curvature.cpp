@@ -231,10 +231,7 @@ SurfacePatches surface_patches(const IndexedMesh& mesh, double radius) {
   std::vector<Vector3> centres(faces);
   std::vector<Vector3> vector_areas(faces);
   for (std::size_t f = 0; f < faces; ++f) {
-    const Triangle& t = mesh.triangles[f];
-    const Vector3& a = mesh.points[index(t[0])];
-    const Vector3& b = mesh.points[index(t[1])];
-    const Vector3& c = mesh.points[index(t[2])];
+    const auto [a, b, c] = corners_of(mesh, f);
     centres[f] = (a + b + c) / 3.0;
     vector_areas[f] = 0.5 * doubled_area_normal(a, b, c);
   }

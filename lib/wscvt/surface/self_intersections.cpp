@@ -25,11 +25,6 @@ constexpr const char* intersection_stage = "Looking for intersecting triangles";
 
 Kernel::Point_3 exact(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
-std::array<Vector3, 3> corners_of(const IndexedMesh& mesh, std::int32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return {mesh.points[a], mesh.points[b], mesh.points[c]};
-}
-
 bool is_flat(const std::array<Vector3, 3>& corners) {
   return CGAL::collinear(exact(corners[0]), exact(corners[1]), exact(corners[2]));
 }

@@ -10,11 +10,6 @@ namespace wscvt {
 
 namespace {
 
-std::array<Vector3, 3> corners_of(const EditMesh& mesh, std::size_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return {mesh.points[a], mesh.points[b], mesh.points[c]};
-}
-
 bool segment_pierces(const Vector3& p, const Vector3& q, const std::array<Vector3, 3>& x) {
   const Vector3 n = doubled_area_normal(x[0], x[1], x[2]);
   const double dp = n.dot(p - x[0]);

@@ -64,7 +64,7 @@ class Evaluation {
     if (triangulation_) {
       const auto repair = triangulation_->restore_regular(seeds, weights_, execution_);
       flips_ = repair.flips;
-      if (repair.complete()) return true;
+      if (repair.complete) return true;
       ++report.rebuilds;
     }
     // A seed whose weight is too low has no cell. The differences between weights are then halved
