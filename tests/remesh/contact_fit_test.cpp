@@ -46,7 +46,7 @@ TEST(ContactFit, TakesTheMeanGapAwayAndHalvesTheRest) {
     SCOPED_TRACE("radius " + std::to_string(radius));
     const Gap before = gap_on_unit_sphere(nodes.points, radius);
     const Gap after =
-        gap_on_unit_sphere(fit_to_contacts(nodes, grain, nullptr, radius, Execution(2)), radius);
+        gap_on_unit_sphere(fit_to_contacts(nodes, grain, radius, Execution(2)), radius);
     EXPECT_GT(before.mean, 0.004);
     EXPECT_LT(std::abs(after.mean), 0.05 * before.mean);
     EXPECT_LT(after.rms, 0.6 * before.rms);
@@ -59,7 +59,7 @@ TEST(ContactFit, SmallerBallsTakeNodesFartherOut) {
   double before = std::numeric_limits<double>::infinity();
   for (const double radius : {0.3, 1.0, 10.0}) {
     double reach = 0.0;
-    for (const Vector3& p : fit_to_contacts(nodes, grain, nullptr, radius, Execution(2))) {
+    for (const Vector3& p : fit_to_contacts(nodes, grain, radius, Execution(2))) {
       reach += p.norm() / static_cast<double>(nodes.points.size());
     }
     EXPECT_GT(reach, 1.0);
@@ -75,7 +75,7 @@ TEST(ContactFit, LeavesTheMeshWhole) {
   nodes.points = random_directions(150, 3);
   nodes.triangles = SphereTriangulation(nodes.points).triangles();
   const std::vector<Vector3> start = nodes.points;
-  nodes.points = fit_to_contacts(nodes, grain, nullptr, 0.4, Execution(2));
+  nodes.points = fit_to_contacts(nodes, grain, 0.4, Execution(2));
   EXPECT_NE(nodes.points, start);
   EXPECT_TRUE(self_intersections(nodes).empty());
   for (const Triangle& t : nodes.triangles) {
@@ -96,7 +96,7 @@ TEST(ContactFit, NodesInAHollowThatNoBallReachesStay) {
       if (p.z() > 0.0 && off < 0.3) p *= 0.5 + 0.5 * off / 0.3;
     }
   }
-  const std::vector<Vector3> moved = fit_to_contacts(nodes, grain, nullptr, 1.0, Execution(2));
+  const std::vector<Vector3> moved = fit_to_contacts(nodes, grain, 1.0, Execution(2));
   int in_the_dent = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Vector3& p = nodes.points[i];
@@ -111,14 +111,14 @@ TEST(ContactFit, NodesInAHollowThatNoBallReachesStay) {
 TEST(ContactFit, SameBytesOnAnyNumberOfThreads) {
   const IndexedMesh grain = test::lumpy(4);
   const IndexedMesh nodes = test::lumpy(2);
-  EXPECT_EQ(fit_to_contacts(nodes, grain, nullptr, 0.4, Execution(1)),
-            fit_to_contacts(nodes, grain, nullptr, 0.4, Execution(3)));
+  EXPECT_EQ(fit_to_contacts(nodes, grain, 0.4, Execution(1)),
+            fit_to_contacts(nodes, grain, 0.4, Execution(3)));
 }
 
 TEST(ContactFit, RefusesBallsWithoutASize) {
   const IndexedMesh nodes = test::sphere(2);
   for (const double radius : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_ERROR(fit_to_contacts(nodes, nodes, nullptr, radius, Execution(1)), InvalidInput);
+    EXPECT_ERROR(fit_to_contacts(nodes, nodes, radius, Execution(1)), InvalidInput);
   }
 }
 

@@ -11,7 +11,6 @@
 #include "wscvt/repair/scan_options.h"
 #include "wscvt/surface/curvature.h"
 #include "wscvt/surface/harmonic_fit.h"
-#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/tessellation/multilevel_relaxation.h"
 #include "wscvt/tessellation/weights.h"
 
@@ -87,9 +86,8 @@ PublishedRemesher::PublishedRemesher(const NormalizedScan& scan, const AsPublish
   rays_.emplace(scan.mesh, Vector3::Zero(), 1.0, overhang, execution);
   HarmonicFit fit = fit_harmonics(*rays_, degree, execution.part(0.4, 1.0));
   report_.fit = fit.report;
-  coefficients_ = fit.surface.coefficients();
-  series_ = std::make_unique<HarmonicSurface>(std::move(fit.surface));
-  surface_ = series_.get();
+  series_.emplace(std::move(fit.surface));
+  surface_ = &*series_;
   if (overhang > told_by_rays) {
     report_.fit.residual = residual_with_overhangs(scan.mesh, *surface_, execution);
   }

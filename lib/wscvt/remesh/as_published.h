@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "wscvt/remesh/remesh_method.h"
 #include "wscvt/remesh/remesh_options.h"
 #include "wscvt/remesh/repaired_scan.h"
+#include "wscvt/surface/harmonic_surface.h"
 #include "wscvt/surface/mesh_surface.h"
 #include "wscvt/surface/radial_surface.h"
 
@@ -41,17 +41,16 @@ class PublishedRemesher : public RemeshMethod {
   /// Steps 3 to 5.
   Nodes place(int node_count, const Execution& execution) const override;
 
-  /// Returns the coefficients of the series; empty for a formula.
-  const std::vector<double>& coefficients() const { return coefficients_; }
+  /// Returns the coefficients of the series, which a formula has not.
+  const std::vector<double>& coefficients() const { return series_->coefficients(); }
   const HarmonicFitReport& fit() const { return report_.fit; }
 
  private:
   AsPublishedOptions options_;
   bool with_curvatures_;
-  std::unique_ptr<const RadialSurface> series_;  ///< nullptr for a formula
-  const RadialSurface* surface_ = nullptr;       ///< the series, or the formula
-  std::optional<MeshSurface> rays_;              ///< for nodes on the scan
-  std::vector<double> coefficients_;
+  std::optional<HarmonicSurface> series_;   ///< of a scan
+  const RadialSurface* surface_ = nullptr;  ///< the series, or the formula
+  std::optional<MeshSurface> rays_;         ///< for nodes on the scan
   AsPublishedReport report_;
 };
 

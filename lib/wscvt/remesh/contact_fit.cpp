@@ -14,12 +14,12 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <tuple>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
@@ -47,8 +47,9 @@ struct Ball {
 /// Returns balls with centres evenly distributed over the surface at `radius` from the grain.
 /// Leaves out centres inside the grain or nearer to another part, as above hollows narrower than
 /// the ball.
-std::vector<Ball> touching_balls(const IndexedMesh& grain, const MeshDistance& surface,
-                                 double radius, std::size_t count, const Execution& execution) {
+std::vector<Ball> touching_balls(const IndexedMesh& grain, double radius, std::size_t count,
+                                 const Execution& execution) {
+  const MeshDistance surface(grain, execution);
   IndexedMesh offset = grain;
   const std::vector<Vector3> normals = vertex_normals(grain.points, grain.triangles);
   for (std::size_t i = 0; i < normals.size(); ++i) offset.points[i] += radius * normals[i];
@@ -171,8 +172,7 @@ double node_distance(const IndexedMesh& mesh) {
 }  // namespace
 
 std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh& grain,
-                                     const MeshDistance* to_grain, double ball_radius,
-                                     const Execution& execution) {
+                                     double ball_radius, const Execution& execution) {
   if (!(ball_radius > 0.0) || !std::isfinite(ball_radius)) {
     refuse("The radius of the balls for the contact fit is " + format_typed(ball_radius) +
            ". Give a number above 0.");
@@ -180,9 +180,7 @@ std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh&
   constexpr const char* stage = "Fitting the nodes to contacts";
   execution.report(0.0, stage);
   const std::size_t count = std::min(balls_per_node * mesh.points.size(), most_balls);
-  std::optional<MeshDistance> made;
-  if (to_grain == nullptr) to_grain = &made.emplace(grain, execution);
-  const std::vector<Ball> balls = touching_balls(grain, *to_grain, ball_radius, count, execution);
+  const std::vector<Ball> balls = touching_balls(grain, ball_radius, count, execution);
   const double longest = longest_step * node_distance(mesh);
   const TriangleGuard guard(mesh);
 

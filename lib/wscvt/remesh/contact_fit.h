@@ -5,7 +5,6 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
-#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 
@@ -22,11 +21,10 @@ namespace wscvt {
 /// The mesh keeps its triangles. No step turns a triangle by more than some 70 degrees from its
 /// start, or inward seen from the origin. Nodes that are nearest to no ball, such as nodes in
 /// hollows, stay. `mesh` and `grain` are closed and outward, about the origin; lengths are
-/// equivalent radii. `to_grain` is the distance to `grain`, or nullptr to compute it here. The
-/// result does not depend on the number of threads. Throws Error(InvalidInput) for a radius that is
-/// not positive or a grain without faces, Error(Cancelled).
+/// equivalent radii. The result does not depend on the number of threads. Throws
+/// Error(InvalidInput) for a radius that is not positive or a grain without faces,
+/// Error(Cancelled).
 std::vector<Vector3> fit_to_contacts(const IndexedMesh& mesh, const IndexedMesh& grain,
-                                     const MeshDistance* to_grain, double ball_radius,
-                                     const Execution& execution);
+                                     double ball_radius, const Execution& execution);
 
 }  // namespace wscvt

@@ -53,9 +53,11 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
   return report;
 }
 
-ScanMethod::ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
-                       bool with_curvatures, const Execution& execution)
+ScanMethod::ScanMethod(const NormalizedScan& scan, const RadialSurface* surface,
+                       const OnScanOptions& options, int most_nodes, bool with_curvatures,
+                       const Execution& execution)
     : scan_(scan),
+      surface_(surface),
       options_(options),
       with_curvatures_(with_curvatures),
       remesher_(scan.mesh, nodes_options(options), most_nodes, execution) {}
@@ -66,24 +68,18 @@ Nodes ScanMethod::place(int node_count, const Execution& execution) const {
   nodes.mesh = std::move(placed.mesh);
   nodes.cell_areas = std::move(placed.cell_areas);
   if (options_.placement == ScanPlacement::ContactFit) {
-    nodes.mesh.points = fit_to_contacts(nodes.mesh, scan_.mesh, nullptr, options_.contact_radius,
-                                        execution.part(0.95, 1.0));
+    nodes.mesh.points =
+        fit_to_contacts(nodes.mesh, scan_.mesh, options_.contact_radius, execution.part(0.95, 1.0));
+    measure_moved(execution, nodes, placed.report);
+  } else if (options_.placement == ScanPlacement::OnSurface && surface_ != nullptr) {
+    for (Vector3& point : nodes.mesh.points) {
+      const Vector3 direction = point.normalized();
+      point = surface_->radius(direction) * direction;
+    }
     measure_moved(execution, nodes, placed.report);
   }
   if (with_curvatures_) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
   nodes.report = OnScanReport{{}, placed.report, 0};
-  return nodes;
-}
-
-Nodes SurfaceMethod::place(int node_count, const Execution& execution) const {
-  Nodes nodes = on_scan_.place(node_count, execution);
-  if (!on_surface_) return nodes;
-  for (Vector3& point : nodes.mesh.points) {
-    const Vector3 direction = point.normalized();
-    point = surface_.radius(direction) * direction;
-  }
-  measure_moved(execution, nodes, std::get<OnScanReport>(nodes.report).nodes);
-  if (!nodes.curvatures.empty()) nodes.curvatures = largest_curvatures(nodes.mesh, execution);
   return nodes;
 }
 

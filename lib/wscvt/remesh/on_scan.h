@@ -24,10 +24,12 @@ HandleReport treat_handles(CheckedMesh& scan, const OnScanOptions& options,
 /// cells, but needs no sphere, rays or series.
 class ScanMethod : public RemeshMethod {
  public:
-  /// For at most `most_nodes`; `scan` must outlive this. Throws Error: InvalidInput,
-  /// NumericalFailure, Cancelled.
-  ScanMethod(const NormalizedScan& scan, const OnScanOptions& options, int most_nodes,
-             bool with_curvatures, const Execution& execution);
+  /// For at most `most_nodes`; `scan` must outlive this. `surface`: if not null, the star-shaped
+  /// surface, in the units of `scan`, of which the scan is a mesh; it must outlive this. Nodes on
+  /// the surface are then moved along their rays from the mesh's flat faces to the surface itself.
+  /// Throws Error: InvalidInput, NumericalFailure, Cancelled.
+  ScanMethod(const NormalizedScan& scan, const RadialSurface* surface, const OnScanOptions& options,
+             int most_nodes, bool with_curvatures, const Execution& execution);
 
   Nodes place(int node_count, const Execution& execution) const override;
   int enough_above(int node_count, const Execution& execution) const override {
@@ -36,33 +38,10 @@ class ScanMethod : public RemeshMethod {
 
  private:
   const NormalizedScan& scan_;
+  const RadialSurface* surface_;
   OnScanOptions options_;
   bool with_curvatures_;
   ScanRemesher remesher_;
-};
-
-/// The method on the scan for a star-shaped surface that is known exactly, applied to a mesh of it.
-/// Nodes on the surface are moved along their rays from the mesh's flat faces to the surface
-/// itself.
-class SurfaceMethod : public RemeshMethod {
- public:
-  /// `surface` has the units of `scan`; both must outlive this. Throws as ScanMethod.
-  SurfaceMethod(const NormalizedScan& scan, const RadialSurface& surface,
-                const OnScanOptions& options, int most_nodes, bool with_curvatures,
-                const Execution& execution)
-      : on_scan_(scan, options, most_nodes, with_curvatures, execution),
-        surface_(surface),
-        on_surface_(options.placement == ScanPlacement::OnSurface) {}
-
-  Nodes place(int node_count, const Execution& execution) const override;
-  int enough_above(int node_count, const Execution& execution) const override {
-    return on_scan_.enough_above(node_count, execution);
-  }
-
- private:
-  ScanMethod on_scan_;
-  const RadialSurface& surface_;
-  bool on_surface_;
 };
 
 }  // namespace wscvt

@@ -83,7 +83,7 @@ void refuse_below_series(const AsPublishedOptions& published, const ErrorTarget&
 void choose_method(const RemeshOptions& options, const Execution& execution, PreparedGrain& grain) {
   const bool with_curvatures = options.measures.node_curvatures;
   if (const auto* on_scan = std::get_if<OnScanOptions>(&options.method)) {
-    grain.method = std::make_unique<ScanMethod>(grain.scan, *on_scan, most_nodes(options),
+    grain.method = std::make_unique<ScanMethod>(grain.scan, nullptr, *on_scan, most_nodes(options),
                                                 with_curvatures, execution.part(0.0, 0.8));
     if (options.measures.series) {
       grain.coefficients =
@@ -137,9 +137,8 @@ void prepare(const RadialSurface& scaled, const SurfaceIntegrals& integrals, dou
   grain.scan.shape.sphericity = 4.0 * pi / grain.scan.shape.area;
   const bool with_curvatures = options.measures.node_curvatures;
   if (on_scan != nullptr) {
-    grain.method =
-        std::make_unique<SurfaceMethod>(grain.scan, scaled, *on_scan, most_nodes(options),
-                                        with_curvatures, execution.part(0.5, 0.9));
+    grain.method = std::make_unique<ScanMethod>(grain.scan, &scaled, *on_scan, most_nodes(options),
+                                                with_curvatures, execution.part(0.5, 0.9));
   } else {
     grain.method = std::make_unique<PublishedRemesher>(
         scaled, std::get<AsPublishedOptions>(options.method), with_curvatures);

@@ -76,10 +76,10 @@ MeshSurface::Hit MeshSurface::outermost_hit(const Vector3& direction) const {
   Hit hit;
   const std::size_t cell = cube_.cell(direction);
   for (auto triangle = bins_.begin(cell); triangle != bins_.end(cell); ++triangle) {
-    const Triangle& t = mesh_.triangles[static_cast<std::size_t>(*triangle)];
-    const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
-    const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
-    const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
+    const Triangle& t = mesh_.triangles[*triangle];
+    const Vector3& a = mesh_.points[t[0]];
+    const Vector3& b = mesh_.points[t[1]];
+    const Vector3& c = mesh_.points[t[2]];
     const double ax = a[axis_x] - shear_x * a[axis];
     const double ay = a[axis_y] - shear_y * a[axis];
     const double bx = b[axis_x] - shear_x * b[axis];
@@ -122,10 +122,7 @@ void MeshSurface::evaluate(const Vector3* directions, std::size_t count, Derivat
     RadialJet jet;
     jet.radius = hit.radius;
     if (derivatives != Derivatives::None) {
-      const Triangle& t = mesh_.triangles[static_cast<std::size_t>(hit.triangle)];
-      const Vector3& a = mesh_.points[static_cast<std::size_t>(t[0])];
-      const Vector3& b = mesh_.points[static_cast<std::size_t>(t[1])];
-      const Vector3& c = mesh_.points[static_cast<std::size_t>(t[2])];
+      const auto [a, b, c] = corners_of(mesh_, hit.triangle);
       const Vector3 normal = doubled_area_normal(a, b, c);
       const Vector3 slope = normal / normal.dot(u);
       // Derivatives of d / (n . x): -r s and 2 r s s^T with s = n / (n . u).

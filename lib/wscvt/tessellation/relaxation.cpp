@@ -31,10 +31,10 @@ double mean_square(const std::vector<Vector3>& from, const std::vector<Vector3>&
 /// The cells of seeds at one position, compared with their targets.
 class Evaluation {
  public:
-  Evaluation(const SeedModel& model, const Execution& execution)
-      : model_(model), execution_(execution) {}
-
-  void start_from(SphereTriangulation triangulation) { triangulation_ = std::move(triangulation); }
+  /// `triangulation` of the first seeds, if there is one.
+  Evaluation(const SeedModel& model, const Execution& execution,
+             std::optional<SphereTriangulation> triangulation)
+      : model_(model), execution_(execution), triangulation_(std::move(triangulation)) {}
 
   /// Repairs or rebuilds the triangulation for `seeds` and computes the cells. Returns false,
   /// without cells, if the seeds have no triangulation at any weights.
@@ -164,8 +164,7 @@ RelaxationResult relax(std::vector<Vector3> seeds, const SeedModel& model,
   const std::size_t count = seeds.size();
   if (count < 4) refuse("Relaxation needs at least 4 seeds, not " + std::to_string(count) + ".");
   RelaxationReport report;
-  Evaluation evaluation(model, execution);
-  if (triangulation) evaluation.start_from(*std::move(triangulation));
+  Evaluation evaluation(model, execution, std::move(triangulation));
   evaluation.at(seeds, report);
 
   // `seeds`: positions of the evaluated cells; `arrived`: end of the last plain step.

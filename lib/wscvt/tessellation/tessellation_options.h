@@ -77,9 +77,6 @@ inline constexpr NumberOption<double> curvature_alpha_option = {
     -3.0,       3.0,
     Ends::Both, "0 ignores curvature. Larger values put more nodes where the surface bends"};
 
-/// Throws Error(InvalidInput), with the range, for options out of range.
-void check_weighting_options(const WeightingOptions& options);
-
 /// Limits at which the relaxation ends.
 struct RelaxationOptions {
   int maximum_iterations = 1000;

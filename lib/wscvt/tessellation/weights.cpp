@@ -121,11 +121,6 @@ WeightingRule weighting_rule(const RadialSurface& surface, const WeightingOption
 
 }  // namespace
 
-void check_weighting_options(const WeightingOptions& options) {
-  require_valid(options.kind);
-  require_in_range(options.curvature_alpha, curvature_alpha_option);
-}
-
 namespace {
 
 /// Small, so that the threads also share the coarsest level's hundreds of seeds.
@@ -175,7 +170,8 @@ double solve_offset(const GridField& cells, double count, double smallest) {
 SurfaceSeedModel::SurfaceSeedModel(const RadialSurface& surface, const WeightingOptions& options,
                                    int node_count, const Execution& execution)
     : node_count_(node_count) {
-  check_weighting_options(options);
+  require_valid(options.kind);
+  require_in_range(options.curvature_alpha, curvature_alpha_option);
   if (node_count < 4) {
     refuse("The number of nodes is " + std::to_string(node_count) +
            ". A closed mesh needs at least 4.");
@@ -230,18 +226,17 @@ void SurfaceSeedModel::weights(const std::vector<Vector3>& seeds, const Executio
   for (double& value : result) value = rule_.weight(value, count, over_seeds);
 }
 
-double SurfaceSeedModel::number_density(double value) const {
-  const double mean_cell = 4.0 * pi / node_count_;
-  return 1.0 / std::max(smallest_cell_share * mean_cell,
-                        cell_area_per_weight * rule_.weight(value, node_count_, wanted_) + offset_);
-}
-
 std::vector<double> SurfaceSeedModel::number_densities(const std::vector<Vector3>& directions,
                                                        const Execution& execution) const {
+  const double smallest = smallest_cell_share * (4.0 * pi / node_count_);
   std::vector<double> result(directions.size(), 0.0);
   execution.parallel_for(result.size(), weight_block, [&](std::size_t begin, std::size_t end) {
     if (field_) field_->interpolate(directions.data() + begin, end - begin, result.data() + begin);
-    for (std::size_t i = begin; i < end; ++i) result[i] = number_density(result[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double cell =
+          cell_area_per_weight * rule_.weight(result[i], node_count_, wanted_) + offset_;
+      result[i] = 1.0 / std::max(smallest, cell);
+    }
   });
   return result;
 }

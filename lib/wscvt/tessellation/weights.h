@@ -66,9 +66,6 @@ class SurfaceSeedModel : public SeedModel {
                                        const Execution& execution) const;
 
  private:
-  /// Returns the wanted number of seeds per steradian at a value of the field.
-  double number_density(double value) const;
-
   int node_count_;
   WeightingRule rule_;               ///< its field has become field_
   std::optional<SphereGrid> field_;  ///< empty if all weights are equal
