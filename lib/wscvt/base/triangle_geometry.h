@@ -38,6 +38,13 @@ std::array<Vector3, 3> corners_of(const Mesh& mesh, std::size_t t) {
   return {mesh.points[a], mesh.points[b], mesh.points[c]};
 }
 
+/// Returns doubled_area_normal of triangle `t` of a mesh.
+template <class Mesh>
+Vector3 doubled_area_normal(const Mesh& mesh, std::size_t t) {
+  const auto& [a, b, c] = mesh.triangles[t];
+  return doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
+}
+
 /// Returns the barycentric weights of the point of the triangle a, b, c nearest to `p`: each >= 0,
 /// sum 1 (Ericson 2005, "Real-time collision detection", section 5.1.5).
 Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p);

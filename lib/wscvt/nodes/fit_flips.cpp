@@ -23,13 +23,10 @@ constexpr double sharp_new_edge = -0.2;
 
 double square(double x) { return x * x; }
 
-/// The edge ab of the triangles abc (t) and bad (u), which would become cd.
-struct FlipCandidate {
-  std::int32_t h;
-  std::int32_t g;
-  std::size_t t;
-  std::size_t u;
-  std::int32_t a, b, c, d;
+/// An edge ab, which would become cd.
+struct FlipCandidate : EdgeSides {
+  explicit FlipCandidate(const EdgeSides& sides) : EdgeSides(sides) {}
+
   Vector3 pa, pb, pc, pd;
   double sharpness_t, sharpness_u;  ///< of the triangles cad and cdb
   Vector3 normal_t, normal_u;       ///< unit, of the new triangles
@@ -64,14 +61,13 @@ class FitFlips {
 
  private:
   bool try_flip(std::int32_t h) {
-    FlipCandidate f;
-    if (!look_at(h, f)) return false;
+    FlipCandidate f(mesh_.sides(h));
+    if (!look_at(f)) return false;
     const double cost = cost_of(f) + 1e-9 * state_.edge * state_.edge;
     const double most = squares_[f.t] + squares_[f.u] - cost / (error_worth * state_.share());
     if (most <= 0.0 || mesh_.joined(f.c, f.d) || !look_at_normals(f)) return false;
     if (!deal_samples(f, most) || !keeps_shape(f)) return false;
-    const std::vector<std::int32_t> both = {static_cast<std::int32_t>(f.t),
-                                            static_cast<std::int32_t>(f.u)};
+    const std::vector<std::int32_t> both = {f.t, f.u};
     if (state_.hash.meets(mesh_, {f.c, f.a, f.d}, {f.pc, f.pa, f.pd}, both) ||
         state_.hash.meets(mesh_, {f.c, f.d, f.b}, {f.pc, f.pd, f.pb}, both)) {
       return false;
@@ -90,16 +86,8 @@ class FitFlips {
     }
   }
 
-  /// Reads the four nodes and their angles; false if no flip is possible or angles forbid it.
-  bool look_at(std::int32_t h, FlipCandidate& f) const {
-    f.h = h;
-    f.g = mesh_.opposite[h];
-    f.t = face_of(h);
-    f.u = face_of(f.g);
-    f.a = mesh_.origin(h);
-    f.b = mesh_.target(h);
-    f.c = mesh_.apex(h);
-    f.d = mesh_.apex(f.g);
+  /// Reads the four nodes' angles; false if no flip is possible or angles forbid it.
+  bool look_at(FlipCandidate& f) const {
     if (mesh_.degrees[f.a] <= 4 || mesh_.degrees[f.b] <= 4 || f.c == f.d) return false;
     f.pa = mesh_.points[f.a];
     f.pb = mesh_.points[f.b];
@@ -178,7 +166,7 @@ class FitFlips {
     of_u_.clear();
     normals_t_.setZero();
     normals_u_.setZero();
-    for (const std::size_t from : {f.t, f.u}) {
+    for (const std::int32_t from : {f.t, f.u}) {
       for (const std::int32_t s : state_.of[from]) {
         const FitSample& sample = state_.samples[s];
         const double to_t = shape_t.nearest(sample.point).squared_distance;
@@ -225,13 +213,13 @@ class FitFlips {
     state_.of[f.u] = of_u_;
     state_.sample_normals[f.t] = normals_t_;
     state_.sample_normals[f.u] = normals_u_;
-    for (const std::size_t t : {f.t, f.u}) {
+    for (const std::int32_t t : {f.t, f.u}) {
       for (const std::int32_t s : state_.of[t]) {
-        state_.samples[s].face = static_cast<std::int32_t>(t);
+        state_.samples[s].face = t;
         state_.samples[s].place = nearest_in_triangle(state_.samples[s].point, mesh_, t);
       }
       measure(t);
-      state_.hash.enter(mesh_, static_cast<std::int32_t>(t));
+      state_.hash.enter(mesh_, t);
     }
   }
 

@@ -39,23 +39,22 @@ std::vector<char> nodes_to_polish(const FitState& state) {
   return nodes;
 }
 
-bool fan_meets(const FitState& state, std::int32_t v, const NodeRing& ring, const FitFan& fan,
-               const Vector3& at) {
+bool fan_meets(const FitState& state, const FitFan& fan, const Vector3& at) {
   const std::size_t count = fan.ring.size();
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t next = (j + 1) % count;
-    if (state.hash.meets(state.mesh, {v, ring.nodes[j], ring.nodes[next]},
-                         {at, fan.ring[j], fan.ring[next]}, ring.triangles, v)) {
+    if (state.hash.meets(state.mesh, {fan.node, fan.nodes[j], fan.nodes[next]},
+                         {at, fan.ring[j], fan.ring[next]}, fan.triangles, fan.node)) {
       return true;
     }
   }
   return false;
 }
 
-bool folds_more(const FitState& state, const NodeRing& ring, const FitFan& fan, const Vector3& at) {
-  const double turn = sharpest_turn(state, at, fan.ring, ring.beyond, true);
+bool folds_more(const FitState& state, const FitFan& fan, const Vector3& at) {
+  const double turn = sharpest_turn(state, at, fan.ring, fan.beyond, true);
   return turn < folded &&
-         turn < sharpest_turn(state, fan.centre, fan.ring, ring.beyond, true) - 1e-9;
+         turn < sharpest_turn(state, fan.centre, fan.ring, fan.beyond, true) - 1e-9;
 }
 
 /// Finds a position at which the fan costs less.
@@ -72,8 +71,7 @@ bool find_better(const FitState& state, FitFan& fan, Vector3& at) {
 }
 
 bool polish_node(FitState& state, std::int32_t v) {
-  const NodeRing ring = ring_of(state.mesh, v);
-  FitFan fan = fan_of(state, v, ring);
+  FitFan fan = fan_of(state, v);
   fan.rest = state.ring_edge(v);
   fan.spring = state.spring();
   fan.pull = lone_ring * state.ring();
@@ -83,7 +81,7 @@ bool polish_node(FitState& state, std::int32_t v) {
   const double sharpness_after = fan_sharpness(fan, at);
   if (!fan_is_fine(state, fan, at)) {
     if (fan_is_fine(state, fan, fan.centre) || sharpness_after > sharpness_before ||
-        folds_more(state, ring, fan, at)) {
+        folds_more(state, fan, at)) {
       return false;
     }
   }
@@ -91,10 +89,10 @@ bool polish_node(FitState& state, std::int32_t v) {
       sharpness_after > std::max(sharpness_before, state.round.sharpness_limit)) {
     return false;
   }
-  if (fan_meets(state, v, ring, fan, at)) return false;
+  if (fan_meets(state, fan, at)) return false;
   state.mesh.points[v] = at;
-  state.deal(fan.samples, ring.triangles, fan.places);
-  for (const std::int32_t t : ring.triangles) state.hash.enter(state.mesh, t);
+  state.deal(fan.samples, fan.triangles, fan.places);
+  for (const std::int32_t t : fan.triangles) state.hash.enter(state.mesh, t);
   return true;
 }
 
@@ -122,8 +120,7 @@ struct Mending {
   Vector3 at = Vector3::Zero();
 };
 
-bool mending_allowed(const FitState& state, std::int32_t v, const NodeRing& ring, const FitFan& fan,
-                     const Vector3& at) {
+bool mending_allowed(const FitState& state, const FitFan& fan, const Vector3& at) {
   const std::size_t count = fan.ring.size();
   for (std::size_t j = 0; j < count; ++j) {
     const Vector3& x = fan.ring[j];
@@ -132,12 +129,11 @@ bool mending_allowed(const FitState& state, std::int32_t v, const NodeRing& ring
     const Vector3 before = doubled_area_normal(fan.centre, x, y);
     if (after.dot(before) < face_agreement * after.norm() * before.norm()) return false;
   }
-  return !folds_more(state, ring, fan, at) && !fan_meets(state, v, ring, fan, at);
+  return !folds_more(state, fan, at) && !fan_meets(state, fan, at);
 }
 
 void look_for_mending(const FitState& state, std::int32_t v, double limit, Mending& best) {
-  const NodeRing ring = ring_of(state.mesh, v);
-  const FitFan fan = fan_of(state, v, ring);
+  const FitFan fan = fan_of(state, v);
   const double before = fan_sharpness(fan, fan.centre);
   if (before <= limit) return;
   Vector3 middle = Vector3::Zero();
@@ -150,7 +146,7 @@ void look_for_mending(const FitState& state, std::int32_t v, double limit, Mendi
                               Vector3(0.15 * way), Vector3(0.3 * way), Vector3(0.6 * way), way}) {
     const Vector3 at = fan.centre + move;
     const double after = fan_sharpness(fan, at);
-    if (!(after <= before - least_fall) || !mending_allowed(state, v, ring, fan, at)) continue;
+    if (!(after <= before - least_fall) || !mending_allowed(state, fan, at)) continue;
     double cost = 0.0;
     for (const std::int32_t s : fan.samples) {
       double nearest = 1e300;

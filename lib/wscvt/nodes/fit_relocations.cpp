@@ -52,13 +52,6 @@ struct Insertion {
   }
 };
 
-/// Two triangles about an edge ab.
-struct Quad {
-  std::int32_t h = -1;
-  std::int32_t a = -1, b = -1, c = -1, d = -1;
-  std::int32_t t = -1, u = -1;
-};
-
 class Relocations {
  public:
   Relocations(FitState& state, const Execution& execution)
@@ -97,7 +90,7 @@ class Relocations {
     std::size_t first = 0;
     for (const Insertion& insertion : insertions) {
       if (done >= static_cast<int>(most_)) break;
-      const Quad quad = quad_of(insertion.t, insertion.c);
+      const EdgeSides quad = quad_of(insertion);
       if (quad.h < 0 || is_locked(quad)) continue;
       while (first < removals_.size() && removals_[first].v < 0) ++first;
       const std::size_t at = cheapest_away_from(quad, first);
@@ -119,23 +112,15 @@ class Relocations {
   }
 
  private:
-  Quad quad_of(std::int32_t t, std::int32_t c) const {
-    const Triangle& corners = mesh_.triangles[t];
-    const auto k =
-        static_cast<std::int32_t>(std::find(corners.begin(), corners.end(), c) - corners.begin());
-    Quad quad;
-    if (k == 3) return quad;
-    quad.h = next_half_edge(3 * t + k);
-    quad.t = t;
-    quad.u = static_cast<std::int32_t>(face_of(mesh_.opposite[quad.h]));
-    quad.a = mesh_.origin(quad.h);
-    quad.b = mesh_.target(quad.h);
-    quad.c = c;
-    quad.d = mesh_.apex(mesh_.opposite[quad.h]);
-    return quad;
+  /// Returns the edge of an insertion; without half-edges if `c` is no corner of `t` any more.
+  EdgeSides quad_of(const Insertion& insertion) const {
+    const Triangle& corners = mesh_.triangles[insertion.t];
+    const auto k = static_cast<std::int32_t>(
+        std::find(corners.begin(), corners.end(), insertion.c) - corners.begin());
+    return k == 3 ? EdgeSides() : mesh_.sides(next_half_edge(3 * insertion.t + k));
   }
 
-  bool is_locked(const Quad& quad) const {
+  bool is_locked(const EdgeSides& quad) const {
     return locked_[quad.a] != 0 || locked_[quad.b] != 0 || locked_[quad.c] != 0 ||
            locked_[quad.d] != 0;
   }
@@ -293,7 +278,7 @@ class Relocations {
   /// Finds the position of a new node and its gain.
   void try_insertion(Insertion& insertion, double least) const {
     constexpr int steps = 3;
-    const Quad quad = quad_of(insertion.t, insertion.c);
+    const EdgeSides quad = quad_of(insertion);
     const double before =
         face_errors_[quad.t] + face_errors_[quad.u] + spring_ * spring_energy(quad.a, quad.b);
     insertion.gain = -1.0;
@@ -327,7 +312,7 @@ class Relocations {
   }
 
   /// Returns the first removal from `first` on with node and ring outside a quad and not locked.
-  std::size_t cheapest_away_from(const Quad& quad, std::size_t first) {
+  std::size_t cheapest_away_from(const EdgeSides& quad, std::size_t first) {
     const auto in_quad = [&](std::int32_t v) {
       return v == quad.a || v == quad.b || v == quad.c || v == quad.d;
     };
@@ -380,18 +365,17 @@ class Relocations {
     return true;
   }
 
-  bool may_insert(const Insertion& insertion, const Quad& quad) const {
+  bool may_insert(const Insertion& insertion, const EdgeSides& quad) const {
     const std::array<std::int32_t, 4> nodes = {quad.c, quad.a, quad.d, quad.b};
     std::vector<Vector3> ring;
     for (const std::int32_t v : nodes) ring.push_back(mesh_.points[v]);
-    const std::int32_t g = mesh_.opposite[quad.h];
     const auto beyond = [&](std::int32_t h) {
       return static_cast<std::int32_t>(face_of(mesh_.opposite[h]));
     };
     const double turn =
         sharpest_turn(state_, insertion.at, ring,
-                      {beyond(previous_half_edge(quad.h)), beyond(next_half_edge(g)),
-                       beyond(previous_half_edge(g)), beyond(next_half_edge(quad.h))},
+                      {beyond(previous_half_edge(quad.h)), beyond(next_half_edge(quad.g)),
+                       beyond(previous_half_edge(quad.g)), beyond(next_half_edge(quad.h))},
                       true);
     if (turn < most_folded) return false;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -404,7 +388,7 @@ class Relocations {
     return true;
   }
 
-  void relocate(const Removal& removal, const Insertion& insertion, const Quad& quad) {
+  void relocate(const Removal& removal, const Insertion& insertion, const EdgeSides& quad) {
     const NodeRing ring = ring_of(mesh_, removal.v);
     for (const std::int32_t y : ring.nodes) locked_[y] = 1;
     for (const std::int32_t v : {removal.v, quad.a, quad.b, quad.c, quad.d}) locked_[v] = 1;

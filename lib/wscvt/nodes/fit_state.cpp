@@ -84,11 +84,6 @@ namespace {
 constexpr double fine_face = 0.25;
 constexpr double coarse_face = 1.0;
 
-Vector3 normal_of(const IndexedMesh& mesh, std::size_t t) {
-  const auto& [a, b, c] = mesh.triangles[t];
-  return doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
-}
-
 double face_normal_share(double area, double cell) {
   return smooth_step((area / cell - fine_face) / (coarse_face - fine_face));
 }
@@ -108,7 +103,7 @@ class NormalsOfFaces {
     for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
       const auto& [a, b, c] = scan.triangles[t];
       if (number_[a] < 0 && number_[b] < 0 && number_[c] < 0) continue;
-      const Vector3 normal = normal_of(scan, t);
+      const Vector3 normal = doubled_area_normal(scan, t);
       for (const std::int32_t v : {a, b, c}) {
         if (number_[v] >= 0) normals_[number_[v]] += normal;
       }
@@ -141,7 +136,7 @@ FitSample sample_in_face(const IndexedMesh& scan, const Normals& normals, std::s
     sample.normal += w[k] * normals[corners[k]];
     if (w[k] > w[nearest]) nearest = k;
   }
-  const Vector3 face_normal = normal_of(scan, t);
+  const Vector3 face_normal = doubled_area_normal(scan, t);
   const double doubled_area = face_normal.norm();
   const double share = face_normal_share(0.5 * doubled_area, cell);
   const double length = sample.normal.norm();
@@ -166,7 +161,7 @@ std::vector<FitSample> draw_fit_samples(const IndexedMesh& scan,
   std::vector<double> doubled_areas(faces);
   double total = 0.0;
   for (std::size_t t = 0; t < faces; ++t) {
-    doubled_areas[t] = normal_of(scan, t).norm();
+    doubled_areas[t] = doubled_area_normal(scan, t).norm();
     total += doubled_areas[t];
   }
   std::vector<std::size_t> drawn;
@@ -637,14 +632,14 @@ double fan_sharpness(const FitFan& fan, const Vector3& at) {
   return sharpest;
 }
 
-FitFan fan_of(const FitState& state, std::int32_t v, const NodeRing& ring) {
+FitFan fan_of(const FitState& state, std::int32_t v) {
   FitFan fan;
+  static_cast<NodeRing&>(fan) = ring_of(state.mesh, v);
   fan.node = v;
   fan.centre = state.mesh.points[v];
-  fan.nodes = ring.nodes;
-  for (const std::int32_t y : ring.nodes) fan.ring.push_back(state.mesh.points[y]);
-  for (std::size_t j = 0; j < ring.triangles.size(); ++j) {
-    const std::vector<std::int32_t>& samples = state.of[ring.triangles[j]];
+  for (const std::int32_t y : fan.nodes) fan.ring.push_back(state.mesh.points[y]);
+  for (std::size_t j = 0; j < fan.triangles.size(); ++j) {
+    const std::vector<std::int32_t>& samples = state.of[fan.triangles[j]];
     fan.samples.insert(fan.samples.end(), samples.begin(), samples.end());
     fan.places.insert(fan.places.end(), samples.size(), static_cast<std::int32_t>(j));
   }

@@ -180,11 +180,10 @@ inline constexpr double folded = -0.5;
 
 /// The triangles about one node, in the mesh or wanted there, with the samples they would have.
 /// Used to compute the node's cost at a position, and to find a better position.
-struct FitFan {
+struct FitFan : NodeRing {
   std::int32_t node = -1;  ///< of the mesh; -1 if the mesh does not have it yet
   Vector3 centre = Vector3::Zero();
-  std::vector<Vector3> ring;          ///< corners around the node, counter-clockwise
-  std::vector<std::int32_t> nodes;    ///< their nodes in the mesh
+  std::vector<Vector3> ring;          ///< positions of `nodes`
   std::vector<std::int32_t> samples;  ///< in the triangles of the fan
   std::vector<std::int32_t> places;   ///< triangle of each sample at the last look-up, or -1
   Vector3 looked_at = Vector3::Constant(1e300);  ///< position of the node at the last look-up
@@ -218,6 +217,6 @@ bool fan_is_fine(const FitState& state, FitFan& fan, const Vector3& at);
 double fan_sharpness(const FitFan& fan, const Vector3& at);
 
 /// Returns the fan of a node in the mesh.
-FitFan fan_of(const FitState& state, std::int32_t v, const NodeRing& ring);
+FitFan fan_of(const FitState& state, std::int32_t v);
 
 }  // namespace wscvt

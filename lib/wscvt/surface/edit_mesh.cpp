@@ -33,22 +33,16 @@ bool EditMesh::joined(std::int32_t a, std::int32_t b) const {
 }
 
 void EditMesh::flip(std::int32_t h) {
-  const std::int32_t g = opposite[h];
-  const std::int32_t t = 3 * static_cast<std::int32_t>(face_of(h));
-  const std::int32_t u = 3 * static_cast<std::int32_t>(face_of(g));
-  const std::int32_t a = origin(h);
-  const std::int32_t b = origin(g);
-  const std::int32_t c = apex(h);
-  const std::int32_t d = apex(g);
+  const EdgeSides e = sides(h);
   flip_edge(h, triangles, opposite);
-  first[c] = t;
-  first[a] = t + 1;
-  first[d] = u;
-  first[b] = u + 1;
-  --degrees[a];
-  --degrees[b];
-  ++degrees[c];
-  ++degrees[d];
+  first[e.c] = 3 * e.t;
+  first[e.a] = 3 * e.t + 1;
+  first[e.d] = 3 * e.u;
+  first[e.b] = 3 * e.u + 1;
+  --degrees[e.a];
+  --degrees[e.b];
+  ++degrees[e.c];
+  ++degrees[e.d];
 }
 
 std::array<std::int32_t, 2> EditMesh::collapse(std::int32_t h) {
@@ -80,19 +74,12 @@ std::array<std::int32_t, 2> EditMesh::collapse(std::int32_t h) {
 
 void EditMesh::put_on_edge(std::int32_t v, std::int32_t h,
                            const std::array<std::int32_t, 2>& free) {
-  const std::int32_t g = opposite[h];
-  const std::int32_t a = origin(h);
-  const std::int32_t b = origin(g);
-  const std::int32_t c = apex(h);
-  const std::int32_t d = apex(g);
+  const auto [same, g, t, u, a, b, c, d] = sides(h);
   const std::int32_t beyond_bc = opposite[next_half_edge(h)];
   const std::int32_t beyond_ca = opposite[previous_half_edge(h)];
   const std::int32_t beyond_ad = opposite[next_half_edge(g)];
   const std::int32_t beyond_db = opposite[previous_half_edge(g)];
-  const auto t = static_cast<std::int32_t>(face_of(h));
-  const auto u = static_cast<std::int32_t>(face_of(g));
-  const std::int32_t p = free[0];
-  const std::int32_t q = free[1];
+  const auto [p, q] = free;
   triangles[t] = {c, a, v};
   triangles[p] = {c, v, b};
   triangles[u] = {d, v, a};
@@ -168,11 +155,7 @@ double fall_of_turns(const EditMesh& mesh, const Flip& f) {
 }
 
 bool try_flip(EditMesh& mesh, const std::vector<Vector3>& outward, std::int32_t h) {
-  const std::int32_t g = mesh.opposite[h];
-  const std::int32_t a = mesh.origin(h);
-  const std::int32_t b = mesh.origin(g);
-  const std::int32_t c = mesh.apex(h);
-  const std::int32_t d = mesh.apex(g);
+  const auto [same, g, t, u, a, b, c, d] = mesh.sides(h);
   const Vector3& pc = mesh.points[c];
   const Vector3& pd = mesh.points[d];
   const Vector3 ca = mesh.points[a] - pc;

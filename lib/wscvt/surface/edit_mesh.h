@@ -13,6 +13,13 @@
 
 namespace wscvt {
 
+/// The edge ab of the triangles abc (t) and bad (u), with its half-edges ab (h) and ba (g).
+struct EdgeSides {
+  std::int32_t h = -1, g = -1;
+  std::int32_t t = -1, u = -1;
+  std::int32_t a = -1, b = -1, c = -1, d = -1;
+};
+
 /// A closed, oriented 2-manifold for editing: edges are flipped, vertices merged and put on edges.
 /// Every edit keeps it closed, oriented and of the same genus if the caller has checked `joined`
 /// and the degrees as the edit requires. Half-edges are defined in half_edges.h.
@@ -36,11 +43,16 @@ struct EditMesh {
   /// Returns the corner of the half-edge's triangle opposite to it.
   std::int32_t apex(std::int32_t h) const { return origin(previous_half_edge(h)); }
 
-  /// Returns the outward normal of a triangle, with the length of twice its area.
-  Vector3 normal(std::size_t t) const {
-    const auto& [a, b, c] = triangles[t];
-    return doubled_area_normal(points[a], points[b], points[c]);
+  /// Returns the two sides of a half-edge's edge.
+  EdgeSides sides(std::int32_t h) const {
+    const std::int32_t g = opposite[h];
+    const auto t = static_cast<std::int32_t>(face_of(h));
+    const auto u = static_cast<std::int32_t>(face_of(g));
+    return {h, g, t, u, origin(h), origin(g), apex(h), apex(g)};
   }
+
+  /// Returns the outward normal of a triangle, with the length of twice its area.
+  Vector3 normal(std::size_t t) const { return doubled_area_normal(*this, t); }
   /// Returns the cosine of a triangle's smallest angle.
   double sharpness(std::size_t t) const {
     const auto& [a, b, c] = triangles[t];
