@@ -58,8 +58,9 @@ RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& 
       execution);
 }
 
-/// Tells of intersecting triangles of the scan, unless those of the remesh tell of them.
-void add_crossing_warning(const RepairedScan& repaired, RemeshResult& result) {
+/// Also tells of intersecting triangles of the scan, unless those of the remesh tell of them.
+void set_warnings(const RepairedScan& repaired, RemeshResult& result) {
+  result.warnings = remesh_warnings(result, repaired.precision_warning);
   const OnScanReport* on_scan = on_scan_report(result);
   const bool is_told = on_scan != nullptr && on_scan->nodes.scan_self_intersections > 0;
   if (repaired.crossing_warning.empty() || is_told) return;
@@ -113,8 +114,7 @@ RemeshResult remesh(IndexedMesh scan, const RemeshOptions& options, const Execut
         clean_wrap(is_kept ? given : grain.scan.mesh, options,
                    static_cast<int>(result.mesh.points.size()), execution.part(1.0, 1.0));
   }
-  result.warnings = remesh_warnings(result, repaired.precision_warning);
-  add_crossing_warning(repaired, result);
+  set_warnings(repaired, result);
   result.repaired_scan = std::move(kept);
   execution.report(1.0, "Done");
   return result;
@@ -142,8 +142,7 @@ std::vector<RemeshResult> remesh_levels(IndexedMesh scan, RemeshOptions options,
   for (const int count : node_counts) {
     const double begin = 0.3 + share * static_cast<double>(results.size());
     results.push_back(remesh_prepared(grain, options, count, execution.part(begin, begin + share)));
-    results.back().warnings = remesh_warnings(results.back(), repaired.precision_warning);
-    add_crossing_warning(repaired, results.back());
+    set_warnings(repaired, results.back());
   }
   results.front().repaired_scan = std::move(kept);
   return results;

@@ -259,10 +259,7 @@ FeretDiameters feret_diameters(const IndexedMesh& mesh, const IndexedMesh& hull_
 double mean_curvature_integral(const IndexedMesh& mesh, const Execution& execution) {
   const HalfEdges edges = link_half_edges(mesh.triangles, mesh.points.size(), execution);
   const auto normal_of = [&mesh](std::size_t face) {
-    const Triangle& t = mesh.triangles[face];
-    return Vector3(doubled_area_normal(mesh.points[index(t[0])], mesh.points[index(t[1])],
-                                       mesh.points[index(t[2])])
-                       .stableNormalized());
+    return Vector3(doubled_area_normal(mesh, face).stableNormalized());
   };
   constexpr std::size_t block = 4096;
   return execution.parallel_sum_of(

@@ -219,9 +219,7 @@ OrientationTensor orientation_tensor(const IndexedMesh& mesh, const Execution& e
   const Eigen::Matrix3d sum = execution.parallel_sum_of(
       mesh.triangles.size(), block_size, Eigen::Matrix3d(Eigen::Matrix3d::Zero()),
       [&](std::size_t f, Eigen::Matrix3d& part) {
-        const Triangle& t = mesh.triangles[f];
-        const Vector3 doubled_area =
-            doubled_area_normal(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+        const Vector3 doubled_area = doubled_area_normal(mesh, f);
         const double length = doubled_area.norm();
         if (length > 0.0) part += 0.5 / length * doubled_area * doubled_area.transpose();
       });

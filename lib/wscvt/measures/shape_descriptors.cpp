@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "wscvt/base/convex_hull.h"
@@ -54,16 +55,20 @@ Vector3 local_origin(const IndexedMesh& mesh, const Execution& execution) {
   return start + sum / static_cast<double>(mesh.points.size());
 }
 
+/// Returns the corners of a face relative to a point.
+std::array<Vector3, 3> corners_about(const Vector3& point, const IndexedMesh& mesh,
+                                     std::size_t face) {
+  const auto [a, b, c] = corners_of(mesh, face);
+  return {a - point, b - point, c - point};
+}
+
 /// Sums over the tetrahedra of the faces and `origin`.
 VolumeMoments volume_moments(const IndexedMesh& mesh, const Vector3& origin,
                              const Execution& execution) {
   return execution.parallel_sum_of(
       mesh.triangles.size(), descriptor_block, VolumeMoments(),
       [&](std::size_t f, VolumeMoments& part) {
-        const Triangle& t = mesh.triangles[f];
-        const Vector3 a = mesh.points[t[0]] - origin;
-        const Vector3 b = mesh.points[t[1]] - origin;
-        const Vector3 c = mesh.points[t[2]] - origin;
+        const auto [a, b, c] = corners_about(origin, mesh, f);
         const Vector3 normal = doubled_area_normal(a, b, c);
         const double determinant = a.dot(normal);  // six volumes; the normal is needed anyway
         const Vector3 sum = a + b + c;
@@ -98,10 +103,7 @@ GradientSquares gradient_squares(const IndexedMesh& mesh, const Vector3& centre,
                                  const Execution& execution) {
   return execution.parallel_sum_of(mesh.triangles.size(), descriptor_block, GradientSquares(),
                                    [&](std::size_t f, GradientSquares& part) {
-                                     const Triangle& t = mesh.triangles[f];
-                                     const Vector3 a = mesh.points[t[0]] - centre;
-                                     const Vector3 b = mesh.points[t[1]] - centre;
-                                     const Vector3 c = mesh.points[t[2]] - centre;
+                                     const auto [a, b, c] = corners_about(centre, mesh, f);
                                      const Vector3 doubled_area = doubled_area_normal(a, b, c);
                                      const double area = 0.5 * doubled_area.norm();
                                      const Vector3 radius = a + b + c;
@@ -118,6 +120,25 @@ GradientSquares gradient_squares(const IndexedMesh& mesh, const Vector3& centre,
                                      if (cosine < smallest_cosine) part.clipped += whole;
                                      part.with_half_clip += square(0.5 * smallest_cosine);
                                    });
+}
+
+/// Sums over the tetrahedra of the faces and the centroid. A coordinate is linear in each
+/// tetrahedron, with the values 0, a, b and c at its corners. The mean of its cube is then 1/20 of
+/// the sum of all products of three of the values, aaa + aab + ... + ccc.
+AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
+                          const Vector3& centroid, const Execution& execution) {
+  return execution.parallel_sum_of(
+      mesh.triangles.size(), descriptor_block, AxisMoments(),
+      [&](std::size_t f, AxisMoments& part) {
+        const auto [corner_a, corner_b, corner_c] = corners_about(centroid, mesh, f);
+        const Eigen::Array2d a = axes.transpose() * corner_a;
+        const Eigen::Array2d b = axes.transpose() * corner_b;
+        const Eigen::Array2d c = axes.transpose() * corner_c;
+        const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
+        const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
+        part.volume += volume;
+        part.third += (volume / 20.0 * products).matrix();
+      });
 }
 
 }  // namespace
@@ -144,7 +165,10 @@ ShapeDescriptors describe_shape(const IndexedMesh& mesh, const Execution& execut
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(second, Eigen::EigenvaluesOnly);
   result.inertia_semi_axes = (5.0 * solver.eigenvalues().cwiseMax(0.0)).cwiseSqrt();
   result.inertia_tensor = moments.volume * (second.trace() * Matrix3::Identity() - second);
-  result.principal_axes = principal_axes(mesh, result.centroid, result.inertia_tensor, execution);
+  result.principal_axes =
+      principal_axes(result.inertia_tensor, [&](const Eigen::Matrix<double, 3, 2>& axes) {
+        return moments_along(axes, mesh, result.centroid, execution);
+      });
   result.aspect_ratio = result.inertia_semi_axes[0] / result.inertia_semi_axes[2];
 
   const GradientSquares squares = gradient_squares(mesh, result.centroid, execution);
@@ -195,32 +219,9 @@ MassProperties mass_properties(const ShapeDescriptors& descriptors) {
 
 namespace {
 
-constexpr std::size_t axes_block = 8192;
-
 /// Below this skewness along an axis, a body counts as symmetric there. Rounding errors are
 /// smaller.
 constexpr double smallest_skewness = 1e-9;
-
-/// Sums over the tetrahedra of the faces and the centroid. A coordinate is linear in each
-/// tetrahedron, with the values 0, a, b and c at its corners. The mean of its cube is then 1/20 of
-/// the sum of all products of three of the values, aaa + aab + ... + ccc.
-AxisMoments moments_along(const Eigen::Matrix<double, 3, 2>& axes, const IndexedMesh& mesh,
-                          const Vector3& centroid, const Execution& execution) {
-  return execution.parallel_sum_of(
-      mesh.triangles.size(), axes_block, AxisMoments(), [&](std::size_t f, AxisMoments& part) {
-        const Triangle& t = mesh.triangles[f];
-        const Vector3 corner_a = mesh.points[t[0]] - centroid;
-        const Vector3 corner_b = mesh.points[t[1]] - centroid;
-        const Vector3 corner_c = mesh.points[t[2]] - centroid;
-        const Eigen::Array2d a = axes.transpose() * corner_a;
-        const Eigen::Array2d b = axes.transpose() * corner_b;
-        const Eigen::Array2d c = axes.transpose() * corner_c;
-        const double volume = six_volumes(corner_a, corner_b, corner_c) / 6.0;
-        const Eigen::Array2d products = (a * a + b * b + c * c) * (a + b + c) + a * b * c;
-        part.volume += volume;
-        part.third += (volume / 20.0 * products).matrix();
-      });
-}
 
 /// Returns the axis or its opposite. `skewness` (no unit) is the third moment of the body's points
 /// along the axis over the cube of their spread.
@@ -235,14 +236,6 @@ Vector3 with_sign(const Vector3& axis, double skewness) {
 }
 
 }  // namespace
-
-Eigen::Quaterniond principal_axes(const IndexedMesh& mesh, const Vector3& centroid,
-                                  const Eigen::Matrix3d& inertia_tensor,
-                                  const Execution& execution) {
-  return principal_axes(inertia_tensor, [&](const Eigen::Matrix<double, 3, 2>& axes) {
-    return moments_along(axes, mesh, centroid, execution);
-  });
-}
 
 Eigen::Quaterniond principal_axes(
     const Eigen::Matrix3d& inertia_tensor,

@@ -28,9 +28,8 @@ class Faces {
  public:
   explicit Faces(const IndexedMesh& mesh)
       : mesh_(mesh), opposite_(link_half_edges(mesh.triangles, mesh.points.size()).opposite) {
-    for (const Triangle& t : mesh.triangles) {
-      normals_.push_back(doubled_area_normal(mesh.points[index(t[0])], mesh.points[index(t[1])],
-                                             mesh.points[index(t[2])]));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      normals_.push_back(doubled_area_normal(mesh, t));
       area_ += normals_.back().norm();
     }
     means_ = normals_;

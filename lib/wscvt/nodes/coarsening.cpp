@@ -89,31 +89,30 @@ bool Coarsening::common_neighbours_allow(std::int32_t v, std::int32_t w) {
   return common == 2 && !three;
 }
 
-namespace {
+struct Coarsening::FanShape {
+  double turned = 0.0;  ///< area that faces against its vectors
+  double least_squared_sine = 1.0;
 
-/// Adds a face with corners p, a, b to the shape of a fan.
-template <class FanShape>
-void add_face(FanShape& shape, const Vector3& a, const Vector3& b, const Vector3& vectors,
-              double large) {
-  const Vector3 normal = a.cross(b);
-  const double squared_normal = normal.squaredNorm();
-  const double along = normal.dot(vectors);
-  const double squared_vectors = vectors.squaredNorm();
-  constexpr double least = least_agreement * least_agreement;
-  if (along < 0.0 || along * along < least * squared_normal * squared_vectors) {
-    shape.turned += least_agreement * std::sqrt(squared_normal);
-    if (squared_vectors > 0.0) shape.turned -= along / std::sqrt(squared_vectors);
+  /// Adds a face with corners p, a, b, the others relative to p.
+  void add(const Vector3& a, const Vector3& b, const Vector3& vectors, double large) {
+    const Vector3 normal = a.cross(b);
+    const double squared_normal = normal.squaredNorm();
+    const double along = normal.dot(vectors);
+    const double squared_vectors = vectors.squaredNorm();
+    constexpr double least = least_agreement * least_agreement;
+    if (along < 0.0 || along * along < least * squared_normal * squared_vectors) {
+      turned += least_agreement * std::sqrt(squared_normal);
+      if (squared_vectors > 0.0) turned -= along / std::sqrt(squared_vectors);
+    }
+    const double l0 = a.squaredNorm();
+    const double l1 = b.squaredNorm();
+    const double l2 = (a - b).squaredNorm();
+    if (std::max({l0, l1, l2}) > large) {
+      least_squared_sine =
+          std::min(least_squared_sine, squared_normal * std::min({l0, l1, l2}) / (l0 * l1 * l2));
+    }
   }
-  const double l0 = a.squaredNorm();
-  const double l1 = b.squaredNorm();
-  const double l2 = (a - b).squaredNorm();
-  if (std::max({l0, l1, l2}) > large) {
-    shape.least_squared_sine = std::min(shape.least_squared_sine,
-                                        squared_normal * std::min({l0, l1, l2}) / (l0 * l1 * l2));
-  }
-}
-
-}  // namespace
+};
 
 /// Returns the shape of the faces about two neighbours, as they are or if they were merged.
 Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, bool are_merged,
@@ -129,8 +128,8 @@ Coarsening::FanShape Coarsening::shape_of(std::int32_t v, std::int32_t w, bool a
       const std::int32_t b = mesh_.apex(h);
       // The two faces between them disappear, or are already added about the first.
       if ((are_merged || i == w) && (a == j || b == j)) return;
-      add_face(shape, mesh_.points[a] - centre, mesh_.points[b] - centre,
-               vectors_[a] + vectors_[b] + about, large);
+      shape.add(mesh_.points[a] - centre, mesh_.points[b] - centre,
+                vectors_[a] + vectors_[b] + about, large);
     });
   }
   return shape;

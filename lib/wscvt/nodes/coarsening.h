@@ -64,10 +64,7 @@ class Coarsening {
   double cost(std::int32_t v, std::int32_t w) const;
   bool possible(std::int32_t v, std::int32_t w);
   bool common_neighbours_allow(std::int32_t v, std::int32_t w);
-  struct FanShape {
-    double turned = 0.0;  ///< area that faces against its vectors
-    double least_squared_sine = 1.0;
-  };
+  struct FanShape;
   FanShape shape_of(std::int32_t v, std::int32_t w, bool are_merged, double large) const;
   void merge(std::int32_t v, std::int32_t w);
   /// Returns the cheapest merge at a vertex after the one of this cost with `last`, possible or

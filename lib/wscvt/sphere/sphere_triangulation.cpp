@@ -56,11 +56,6 @@ std::vector<Vector3> lift(const std::vector<Vector3>& seeds, const std::vector<d
   return lifted;
 }
 
-[[noreturn]] void fail(const std::string& what) {
-  throw Error(ErrorCode::NumericalFailure,
-              "The seeds cannot be triangulated on the sphere: " + what);
-}
-
 /// Whether the triangles have the number that covers the sphere once, and are all
 /// counter-clockwise. By Euler's formula they then leave no gap and do not overlap.
 bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vector3>& seeds,
@@ -79,7 +74,10 @@ bool covers_sphere(const std::vector<Triangle>& triangles, const std::vector<Vec
 SphereTriangulation::SphereTriangulation(const std::vector<Vector3>& seeds,
                                          const std::vector<double>& weights,
                                          const Execution& execution) {
-  if (const char* reason = build(seeds, weights, execution)) fail(reason);
+  if (const char* reason = build(seeds, weights, execution)) {
+    throw Error(ErrorCode::NumericalFailure,
+                std::string("The seeds cannot be triangulated on the sphere: ") + reason);
+  }
 }
 
 std::optional<SphereTriangulation> SphereTriangulation::try_build(

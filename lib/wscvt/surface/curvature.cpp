@@ -22,6 +22,9 @@ namespace {
 
 constexpr std::size_t quadric_block = 256;
 
+/// The paper fits over one ring, which scans leave under-determined.
+constexpr int usual_rings = 2;
+
 /// Below this fraction of the largest pivot a column of the fit does not count.
 constexpr double rank_tolerance = 1e-10;
 
@@ -157,10 +160,9 @@ std::vector<double> largest_curvatures(const RadialSurface& surface,
 }
 
 std::vector<double> largest_curvatures(const IndexedMesh& mesh, const Execution& execution) {
-  constexpr int rings = 2;
   std::vector<double> result;
   result.reserve(mesh.points.size());
-  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, rings, execution)) {
+  for (const PrincipalCurvatures& k : quadric_fit_curvatures(mesh, usual_rings, execution)) {
     result.push_back(std::max(std::abs(k.maximum), std::abs(k.minimum)));
   }
   return result;
@@ -241,9 +243,8 @@ bool weigh_curvature(std::vector<double>& field, const std::vector<double>& area
 
 std::vector<double> curvature_density(const IndexedMesh& surface, double alpha, int node_count,
                                       const Execution& execution) {
-  constexpr int rings = 2;  // the paper fits over one, which scans leave under-determined
   const std::vector<PrincipalCurvatures> curvatures =
-      quadric_fit_curvatures(surface, rings, execution);
+      quadric_fit_curvatures(surface, usual_rings, execution);
   const std::vector<double> areas = vertex_areas(surface);
   double area = 0.0;
   for (const double part : areas) area += part;

@@ -269,20 +269,28 @@ void for_each_sum(int degree, const HarmonicSeries::Term* terms, const Vector3* 
 
 template <int order>
 RadialJet jet_of_lane(const ExtensionLanes& sums, std::size_t i, const Vector3& direction) {
-  const double radius = sums.value.v[i];
+  RadialJet jet;
+  jet.radius = sums.value.v[i];
+  if constexpr (order == 0) return jet;
   const Vector3 gradient(sums.gradient[0].v[i], sums.gradient[1].v[i], sums.gradient[2].v[i]);
-  if constexpr (order > 1) {
-    const double xx = sums.hessian[0].v[i];
-    const double xy = sums.hessian[1].v[i];
-    const double xz = sums.hessian[2].v[i];
-    const double yz = sums.hessian[3].v[i];
-    const double zz = sums.hessian[4].v[i];
-    Matrix3 hessian;
-    hessian << xx, xy, xz, xy, -xx, yz, xz, yz, zz;
-    return jet_from_extension(radius, gradient, hessian, direction);
-  } else {
-    return jet_from_extension(radius, gradient, direction);
-  }
+  if constexpr (order == 1) return jet_from_extension(jet.radius, gradient, direction);
+  const double xx = sums.hessian[0].v[i];
+  const double xy = sums.hessian[1].v[i];
+  const double xz = sums.hessian[2].v[i];
+  const double yz = sums.hessian[3].v[i];
+  const double zz = sums.hessian[4].v[i];
+  Matrix3 hessian;
+  hessian << xx, xy, xz, xy, -xx, yz, xz, yz, zz;
+  return jet_from_extension(jet.radius, gradient, hessian, direction);
+}
+
+template <int order>
+void sum_jets(int degree, const HarmonicSeries::Term* terms, const Vector3* directions,
+              std::size_t count, RadialJet* jets) {
+  for_each_sum<order>(degree, terms, directions, count,
+                      [&](std::size_t index, std::size_t lane, const ExtensionLanes& sums) {
+                        jets[index] = jet_of_lane<order>(sums, lane, directions[index]);
+                      });
 }
 
 }  // namespace
@@ -369,23 +377,8 @@ void HarmonicSeries::sum(const Vector3* directions, std::size_t count, double* v
 
 void HarmonicSeries::sum(const Vector3* directions, std::size_t count, Derivatives derivatives,
                          RadialJet* jets) const {
-  if (derivatives == Derivatives::None) {
-    for_each_sum<0>(degree_, terms_.data(), directions, count,
-                    [&](std::size_t index, std::size_t lane, const ExtensionLanes& sums) {
-                      jets[index] = RadialJet();
-                      jets[index].radius = sums.value.v[lane];
-                    });
-  } else if (derivatives == Derivatives::First) {
-    for_each_sum<1>(degree_, terms_.data(), directions, count,
-                    [&](std::size_t index, std::size_t lane, const ExtensionLanes& sums) {
-                      jets[index] = jet_of_lane<1>(sums, lane, directions[index]);
-                    });
-  } else {
-    for_each_sum<2>(degree_, terms_.data(), directions, count,
-                    [&](std::size_t index, std::size_t lane, const ExtensionLanes& sums) {
-                      jets[index] = jet_of_lane<2>(sums, lane, directions[index]);
-                    });
-  }
+  constexpr decltype(&sum_jets<0>) functions[] = {sum_jets<0>, sum_jets<1>, sum_jets<2>};
+  functions[static_cast<std::size_t>(derivatives)](degree_, terms_.data(), directions, count, jets);
 }
 
 }  // namespace wscvt
