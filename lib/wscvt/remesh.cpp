@@ -47,15 +47,8 @@ class ScaledSurface : public RadialSurface {
 
 RemeshResult remesh_to_options(const PreparedGrain& grain, const RemeshOptions& options,
                                const Execution& execution) {
-  if (!searches(options)) {
-    return remesh_prepared(grain, options, options.node_count, execution);
-  }
-  return remesh_to_target(
-      options.target, options.node_count,
-      [&](int node_count, const Execution& part) {
-        return remesh_prepared(grain, options, node_count, part);
-      },
-      execution);
+  return searches(options) ? remesh_to_target(grain, options, execution)
+                           : remesh_prepared(grain, options, options.node_count, execution);
 }
 
 /// Also tells of intersecting triangles of the scan, unless those of the remesh tell of them.

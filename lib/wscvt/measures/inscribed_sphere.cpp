@@ -57,15 +57,12 @@ TouchingPoints touching_points(const MeshDistance& boxes, const InscribedSphere&
   Vector3 mean = points.front() - sphere.centre;
   double square = mean.squaredNorm();  // mean of the squares
   for (int step = 0; step < steps; ++step) {
-    const auto slope = [&](const Vector3& p) {
-      return p.squaredNorm() + 2.0 * balance * mean.dot(p);
-    };
     Vector3 best = mean;
     double least = square + 2.0 * balance * mean.squaredNorm();
     const double here = least;
     for (std::size_t i = 0; i < points.size(); i += points.size() / enough_points + 1) {
       const Vector3 p = points[i] - sphere.centre;
-      const double value = slope(p);
+      const double value = p.squaredNorm() + 2.0 * balance * mean.dot(p);
       if (!(value < least)) continue;
       least = value;
       best = p;
@@ -206,7 +203,7 @@ class SphereSearch {
     // The centre is on the side of its parent's centre if it is nearer to it than the surface.
     const double reach = diagonal * cell.half_edge;
     const bool decided = has_parent && std::abs(cell.depth) > reach;
-    const bool inside = decided ? cell.depth > 0.0 : surface_.faces_met(cell.centre) % 2 == 1;
+    const bool inside = decided ? cell.depth > 0.0 : surface_.contains(cell.centre);
     // Does not stop so early that the result could count as the deepest place.
     const double near = inside ? std::clamp(enough - reach, 0.0, best_.radius) : 0.0;
     const double distance =

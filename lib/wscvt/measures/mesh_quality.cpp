@@ -96,8 +96,6 @@ double angle_opposite(const TriangleEdges& edges, std::size_t k) {
   return portable::atan2(a.cross(b).norm(), -a.dot(b)) * degrees_per_radian;
 }
 
-double smallest_angle(const TriangleEdges& edges) { return angle_opposite(edges, edges.shortest); }
-
 /// Selects each edge once: in a closed oriented mesh every edge occurs once in each direction.
 bool names_edge(const Triangle& t, std::size_t k) { return t[k] < t[(k + 1) % 3]; }
 
@@ -129,7 +127,7 @@ MeshQuality measure_quality(const IndexedMesh& mesh, const Execution& execution)
                                     if (names_edge(t, k)) part.edge_length.add(edges.lengths[k]);
                                   }
                                   part.edge_ratio.add(edges.ratio);
-                                  part.smallest_angle.add(smallest_angle(edges));
+                                  part.smallest_angle.add(angle_opposite(edges, edges.shortest));
                                 });
 
   std::vector<std::int32_t> valence(mesh.points.size(), 0);

@@ -84,10 +84,6 @@ namespace {
 constexpr double fine_face = 0.25;
 constexpr double coarse_face = 1.0;
 
-double face_normal_share(double area, double cell) {
-  return smooth_step((area / cell - fine_face) / (coarse_face - fine_face));
-}
-
 /// The normals of vertex_normals at the corners of a few faces of a scan.
 class NormalsOfFaces {
  public:
@@ -138,7 +134,8 @@ FitSample sample_in_face(const IndexedMesh& scan, const Normals& normals, std::s
   }
   const Vector3 face_normal = doubled_area_normal(scan, t);
   const double doubled_area = face_normal.norm();
-  const double share = face_normal_share(0.5 * doubled_area, cell);
+  const double share =
+      smooth_step((0.5 * doubled_area / cell - fine_face) / (coarse_face - fine_face));
   const double length = sample.normal.norm();
   // If the vertices' normals cancel, the face's own is used.
   if (length < 1e-6 || share == 1.0) {

@@ -86,7 +86,7 @@ std::size_t genus_of(const EditMesh& mesh) {
 
 }  // namespace
 
-struct ScanRemesher::Parts {
+struct ScanParts {
   const IndexedMesh& scan;
   Coarsening base;                          ///< of the scan, as far as for any number of nodes
   std::vector<std::int32_t> base_clusters;  ///< its vertex for each of the scan's; empty: identical
@@ -192,7 +192,7 @@ ScanRemesher::ScanRemesher(const IndexedMesh& normalized_scan, const ScanNodesOp
   const MeshSums sums =
       mesh_sums(normalized_scan.points, normalized_scan.triangles, Vector3::Zero(), execution);
   const std::size_t genus = genus_of(mesh);
-  const auto parts = std::make_shared<Parts>(Parts{
+  const auto parts = std::make_shared<ScanParts>(ScanParts{
       normalized_scan, Coarsening(std::move(mesh), {}), {}, sums.volume(), sums.area(), genus});
   parts_ = parts;
   const std::size_t vertices = parts->base.size();
@@ -208,8 +208,7 @@ ScanRemesher::ScanRemesher(const IndexedMesh& normalized_scan, const ScanNodesOp
 namespace {
 
 /// Coarsens to the surface for equalization, then to the nodes.
-template <class Parts>
-Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, int node_count,
+Placing coarsen_to_nodes(const ScanParts& parts, const ScanNodesOptions& options, int node_count,
                          const Execution& execution) {
   Placing placing;
   Coarsening coarsening = parts.base;
@@ -255,8 +254,7 @@ Placing coarsen_to_nodes(const Parts& parts, const ScanNodesOptions& options, in
 }
 
 /// Returns samples of the scan, and in `near` the nodes that represent their vertices.
-template <class Parts>
-std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& placing,
+std::vector<FitSample> samples_near_nodes(const ScanParts& parts, const Placing& placing,
                                           const FitDial& dial, std::vector<std::int32_t>& near) {
   const IndexedMesh& split = placing.split.mesh;
   const IndexedMesh& scan = split.points.empty() ? parts.scan : split;
@@ -280,8 +278,7 @@ std::vector<FitSample> samples_near_nodes(const Parts& parts, const Placing& pla
 
 /// Fits the nodes to the scan and gives them its volume. Then separates intersecting triangles and
 /// gives the volume again.
-template <class Parts>
-EditMesh fit(const Parts& parts, const ScanNodesOptions& options, const Placing& placing,
+EditMesh fit(const ScanParts& parts, const ScanNodesOptions& options, const Placing& placing,
              ScanNodesReport& report, const Execution& execution) {
   const FitDial dial = fit_dial(options.edge_ratio, !placing.surface.density.empty());
   std::vector<std::int32_t> near;
@@ -339,7 +336,7 @@ int ScanRemesher::enough_above(int node_count, const Execution& execution) const
 
 std::optional<ScanNodes> ScanRemesher::try_to_place(int node_count,
                                                     const Execution& execution) const {
-  const Parts& parts = *parts_;
+  const ScanParts& parts = *parts_;
   ScanNodes result;
   ScanNodesReport& report = result.report;
   Placing placing = coarsen_to_nodes(parts, options_, node_count, execution.part(0.0, 0.2));

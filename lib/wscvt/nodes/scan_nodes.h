@@ -19,6 +19,8 @@ struct ScanNodes {
   ScanNodesReport report;
 };
 
+struct ScanParts;
+
 /// Remeshes a scan on its own triangles, without a map. The scan is coarsened to exactly N vertices
 /// by Ward's clusters, equalized as a centroidal Voronoi tessellation of its surface, fitted to the
 /// scan, given its volume, and checked for self-intersections.
@@ -48,10 +50,9 @@ class ScanRemesher {
   int enough_above(int node_count, const Execution& execution) const;
 
  private:
-  struct Parts;
   std::optional<ScanNodes> try_to_place(int node_count, const Execution& execution) const;
   ScanNodesOptions options_;
-  std::shared_ptr<const Parts> parts_;
+  std::shared_ptr<const ScanParts> parts_;
 };
 
 }  // namespace wscvt

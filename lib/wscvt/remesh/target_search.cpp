@@ -96,8 +96,9 @@ NodeCountSearch smallest_node_count(double target, int start, int lower, int upp
   return search;
 }
 
-RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
-                              const RemeshToCount& remesh_to, const Execution& execution) {
+RemeshResult remesh_to_target(const PreparedGrain& grain, const RemeshOptions& options,
+                              const Execution& execution) {
+  const ErrorTarget& target = options.target;
   // The result with the smallest node count that met the target, or with the largest tried.
   RemeshResult best;
   bool best_meets = false;
@@ -108,7 +109,7 @@ RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
     const double end = 1.0 - portable::pow(0.85, ++trials);
     RemeshResult result;
     try {
-      result = remesh_to(node_count, execution.part(begin, end));
+      result = remesh_prepared(grain, options, node_count, execution.part(begin, end));
     } catch (const Error& failure) {
       // The nodes are too few to surround the centre. Deeper stages detect it, and it is rare.
       if (failure.code() != ErrorCode::NumericalFailure) throw;
@@ -123,8 +124,9 @@ RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
     }
     return percent_off;
   };
-  NodeCountSearch search = smallest_node_count(
-      target.percent, first_count, node_count_option.minimum, target.largest_node_count, error);
+  NodeCountSearch search =
+      smallest_node_count(target.percent, options.node_count, node_count_option.minimum,
+                          target.largest_node_count, error);
   if (best.mesh.points.empty()) {
     throw Error(ErrorCode::NumericalFailure,
                 "No tested node count could be remeshed. Allow more nodes.");

@@ -5,6 +5,7 @@
 
 #include "wscvt/base/execution.h"
 #include "wscvt/remesh/error_target.h"
+#include "wscvt/remesh/prepared_grain.h"
 #include "wscvt/remesh/remesh_options.h"
 #include "wscvt/remesh/remesh_result.h"
 
@@ -20,14 +21,11 @@ namespace wscvt {
 NodeCountSearch smallest_node_count(double target, int start, int lower, int upper,
                                     const std::function<double(int)>& error);
 
-/// Remeshes to a number of nodes.
-using RemeshToCount = std::function<RemeshResult(int node_count, const Execution& execution)>;
-
-/// Returns the remesh with the smallest number tried that meets the target or, if none does,
-/// with the largest number tried; `search` says which (see smallest_node_count). Throws what
-/// `remesh_to` throws, except for counts that cannot be remeshed, and Error(NumericalFailure) if
-/// all counts fail.
-RemeshResult remesh_to_target(const ErrorTarget& target, int first_count,
-                              const RemeshToCount& remesh_to, const Execution& execution);
+/// Returns the remesh of a grain with the smallest number tried that meets the target of the
+/// options or, if none does, with the largest number tried; `search` says which (see
+/// smallest_node_count). Throws what remesh_prepared throws, except for counts that cannot be
+/// remeshed, and Error(NumericalFailure) if all counts fail.
+RemeshResult remesh_to_target(const PreparedGrain& grain, const RemeshOptions& options,
+                              const Execution& execution);
 
 }  // namespace wscvt
