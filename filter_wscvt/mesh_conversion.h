@@ -44,12 +44,11 @@ IndexedMesh to_indexed_mesh(const VcgMesh& mesh) {
     for (int k = 0; k < 3; ++k) {
       const auto* vertex = mesh.face[f].cV(k);
       const auto v = vertex == nullptr ? -1 : vertex - mesh.vert.data();
-      if (v < 0 || static_cast<std::size_t>(v) >= new_index.size() ||
-          new_index[static_cast<std::size_t>(v)] == deleted) {
+      if (v < 0 || static_cast<std::size_t>(v) >= new_index.size() || new_index[v] == deleted) {
         refuse("Face " + std::to_string(f) +
                " refers to a missing vertex. Remove unreferenced and degenerate elements first.");
       }
-      triangle[static_cast<std::size_t>(k)] = new_index[static_cast<std::size_t>(v)];
+      triangle[k] = new_index[v];
     }
     result.triangles.push_back(triangle);
   }
@@ -72,7 +71,7 @@ void assign(VcgMesh& target, const IndexedMesh& source, const std::vector<double
   vcg::tri::Allocator<VcgMesh>::AddFaces(target, source.triangles.size());
   for (std::size_t f = 0; f < source.triangles.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
-      const auto v = static_cast<std::size_t>(source.triangles[f][static_cast<std::size_t>(k)]);
+      const auto v = static_cast<std::size_t>(source.triangles[f][k]);
       target.face[f].V(k) = &target.vert[v];
     }
   }
@@ -95,8 +94,7 @@ std::vector<MeshAttribute> attributes_of(const Elements& elements, bool has_colo
     attributes.push_back(std::move(attribute));
   };
   for (int k = 0; has_colour && k < 4; ++k) {
-    add(colour_names[static_cast<std::size_t>(k)], ScalarType::Uint8,
-        [k](const auto& element) { return element.cC()[k]; });
+    add(colour_names[k], ScalarType::Uint8, [k](const auto& element) { return element.cC()[k]; });
   }
   if (has_quality) {
     add("quality", ScalarType::Float64, [](const auto& element) { return element.cQ(); });
@@ -116,8 +114,7 @@ MeshTexture texture_of(const VcgMesh& mesh, bool of_corners) {
     int picture = 0;
     for (int k = 0; k < 3; ++k) {
       const auto& place = of_corners ? face.cWT(k) : face.cV(k)->cT();
-      corners[static_cast<std::size_t>(k)] = {static_cast<float>(place.U()),
-                                              static_cast<float>(place.V())};
+      corners[k] = {static_cast<float>(place.U()), static_cast<float>(place.V())};
       if (k == 0) picture = place.N();
     }
     texture.corners.push_back(corners);
@@ -131,8 +128,7 @@ MeshTexture texture_of(const VcgMesh& mesh, bool of_corners) {
 template <class Elements>
 void set_colours(Elements& elements, const std::vector<MeshAttribute>& attributes) {
   for (int k = 0; k < 4; ++k) {
-    const MeshAttribute* part =
-        attribute_named(attributes, colour_names[static_cast<std::size_t>(k)]);
+    const MeshAttribute* part = attribute_named(attributes, colour_names[k]);
     for (std::size_t i = 0; part != nullptr && i < elements.size(); ++i) {
       const double value = std::clamp(part->values[i], 0.0, 255.0);
       elements[i].C()[k] = static_cast<unsigned char>(std::lround(value));

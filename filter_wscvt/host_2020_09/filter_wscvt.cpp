@@ -4,7 +4,6 @@
 #include <QDir>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "filters.h"

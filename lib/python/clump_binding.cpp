@@ -25,7 +25,7 @@ py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
   py::array_t<double> array({static_cast<py::ssize_t>(spheres.size()), py::ssize_t{4}});
   auto rows = array.mutable_unchecked<2>();
   for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-    const Sphere& sphere = spheres[static_cast<std::size_t>(k)];
+    const Sphere& sphere = spheres[k];
     for (py::ssize_t axis = 0; axis < 3; ++axis) rows(k, axis) = sphere.centre[axis];
     rows(k, 3) = sphere.radius;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/arguments/volume_arguments.h"
 
-#include <cmath>
 #include <limits>
 
 #include "program/call/command.h"

@@ -88,7 +88,7 @@ CallWords batch_call(std::vector<std::string> words, std::ptrdiff_t count) {
                   " -o OUT\" remeshes the scans in \"" + words.front() + "\".");
     }
     --count;
-    check_batch_output(words[static_cast<std::size_t>(count)]);
+    check_batch_output(words[count]);
     words.insert(words.begin() + count, "-o");
   }
   words.insert(words.begin(), "batch");

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -82,7 +81,7 @@ double intersection_over_union(const IndexedMesh& grain, const std::vector<Spher
   std::array<std::vector<double>, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double place = 0.5 * step;
-    while (place < size[static_cast<Eigen::Index>(axis)]) {
+    while (place < size[axis]) {
       places[axis].push_back(place);
       place += step;
     }

@@ -41,7 +41,7 @@ std::vector<SurfaceSample> surface_samples(const IndexedMesh& mesh, std::size_t 
   std::vector<SurfaceSample> samples;
   samples.reserve(count);
   for (const MeshPlace& place : area_uniform_places(mesh, count)) {
-    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(place.triangle)];
+    const auto& [a, b, c] = mesh.triangles[place.triangle];
     const Vector3 normal = doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
     samples.push_back({point_at(mesh, place), normal.normalized()});
   }
@@ -98,7 +98,7 @@ GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   constexpr double spacing = 0.13;
   Eigen::AlignedBox3d box;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) box.extend(mesh.points[static_cast<std::size_t>(v)]);
+    for (const std::int32_t v : t) box.extend(mesh.points[v]);
   }
   // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
   constexpr double most_points = 20000.0;

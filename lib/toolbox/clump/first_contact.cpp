@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "wscvt/base/numbers.h"
@@ -127,8 +126,7 @@ ContactHeights::ContactHeights(const IndexedMesh& mesh, double reach, const Exec
     turned.reserve(mesh.points.size());
     for (const Vector3& p : mesh.points) turned.push_back(turn * p);
     for (const auto& [a, b, c] : mesh.triangles) {
-      map.add_triangle(turned[static_cast<std::size_t>(a)], turned[static_cast<std::size_t>(b)],
-                       turned[static_cast<std::size_t>(c)]);
+      map.add_triangle(turned[a], turned[b], turned[c]);
     }
   });
 }

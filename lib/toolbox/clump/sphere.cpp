@@ -34,8 +34,7 @@ class UnionGrid {
                         portable::cbrt(size.prod() / most_points));
     origin_ = low - 1.5 * Vector3::Constant(spacing_);
     for (int axis = 0; axis < 3; ++axis) {
-      counts_[static_cast<std::size_t>(axis)] =
-          static_cast<std::int64_t>(std::ceil(size[axis] / spacing_)) + 4;
+      counts_[axis] = static_cast<std::int64_t>(std::ceil(size[axis] / spacing_)) + 4;
     }
     fill();
   }
@@ -44,9 +43,7 @@ class UnionGrid {
   std::int64_t index(const Corner& c) const {
     return (c[0] * counts_[1] + c[1]) * counts_[2] + c[2];
   }
-  bool is_inside(const Corner& c) const {
-    return values_[static_cast<std::size_t>(index(c))] < 0.0;
-  }
+  bool is_inside(const Corner& c) const { return values_[index(c)] < 0.0; }
   Vector3 point(const Corner& c) const {
     return origin_ + spacing_ * Vector3(static_cast<double>(c[0]), static_cast<double>(c[1]),
                                         static_cast<double>(c[2]));
@@ -92,7 +89,7 @@ class UnionGrid {
       for (std::int64_t i = first[0]; i <= last[0]; ++i) {
         for (std::int64_t j = first[1]; j <= last[1]; ++j) {
           for (std::int64_t k = first[2]; k <= last[2]; ++k) {
-            double& value = values_[static_cast<std::size_t>(index({i, j, k}))];
+            double& value = values_[index({i, j, k})];
             value = std::min(value, sphere.distance(point({i, j, k})));
           }
         }
@@ -122,7 +119,7 @@ class Tetrahedra {
       corners.fill(cell);
       for (std::size_t step = 0; step < 3; ++step) {
         for (std::size_t c = step + 1; c < 4; ++c) {
-          ++corners[c][static_cast<std::size_t>(axes[path][step])];
+          ++corners[c][axes[path][step]];
         }
       }
       // Odd paths turn the tetrahedron over.

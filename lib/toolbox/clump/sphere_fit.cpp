@@ -2,7 +2,6 @@
 #include "toolbox/clump/sphere_fit.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
 namespace wscvt {
 
@@ -155,8 +154,7 @@ std::size_t SphereFit::least_needed() const {
   std::vector<double> rises(spheres_.size(), 0.0);
   for (const Block& block : blocks_) {
     for (std::size_t i = block.begin; i < block.end; ++i) {
-      rises[static_cast<std::size_t>(nearest_[i].first)] +=
-          cost(block.kind, second_[i]) - cost(block.kind, first_[i]);
+      rises[nearest_[i].first] += cost(block.kind, second_[i]) - cost(block.kind, first_[i]);
     }
   }
   return static_cast<std::size_t>(std::min_element(rises.begin(), rises.end()) - rises.begin());

@@ -95,7 +95,7 @@ class SphereFit {
   void improve_inside(std::size_t k);
   bool gauss_newton(std::size_t k, bool radius_follows, Sphere& moved) const;
   void wake(std::int32_t k) {
-    if (k >= 0) steps_[static_cast<std::size_t>(k)].rests = false;
+    if (k >= 0) steps_[k].rests = false;
   }
   void find_nearest(std::size_t i);
   void move_nearest(std::size_t i, std::int32_t own, double distance);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "toolbox/exchange/tetrahedra_files.h"
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_writers.h"
 
@@ -15,7 +14,7 @@ namespace wscvt {
 namespace {
 
 std::string side_text(std::int32_t grain, const std::vector<Label>& labels) {
-  return grain < 0 ? "-1" : std::to_string(labels[index(grain)]);
+  return grain < 0 ? "-1" : std::to_string(labels[grain]);
 }
 
 /// Returns the voxels of labels, with one layer of background about them. The memory is 4 bytes per
@@ -29,7 +28,7 @@ GrainVoxels read_grain_voxels(LabelVolume& volume, const std::vector<Label>& lab
   bool is_known = false;
   const auto read = [&](const std::vector<Label>& row, std::int32_t y, std::int32_t z) {
     for (std::int32_t x = 0; x < counts[0]; ++x) {
-      const Label label = row[index(x)];
+      const Label label = row[x];
       if (!is_known || label != last) {
         const auto found = std::lower_bound(labels.begin(), labels.end(), label);
         const bool is_grain = found != labels.end() && *found == label;
@@ -201,7 +200,7 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
   if (grains.flattest >= 0 && grains.smallest_angle < least_angle) {
     warnings.push_back("The smallest angle of a triangle is " +
                        format_number(grains.smallest_angle, 3) + " degrees, at " + kind + " " +
-                       names[index(grains.flattest)] +
+                       names[grains.flattest] +
                        ". Tetrahedra there are as flat, and simulations with them become slow or "
                        "inaccurate. Give another " +
                        mention(edge_length_option) + remedy);

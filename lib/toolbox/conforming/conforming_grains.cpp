@@ -52,11 +52,11 @@ void count_nodes(ConformingGrains& result) {
                                   });
   for (std::size_t v = 0; v < result.points.size(); ++v) {
     for (const std::int32_t* t = at.begin(v); t != at.end(v); ++t) {
-      const WallTriangle& triangle = result.triangles[index(*t)];
+      const WallTriangle& triangle = result.triangles[*t];
       for (const std::int32_t grain : {triangle.inner, triangle.outer}) {
-        if (grain < 0 || last[index(grain)] == static_cast<std::int32_t>(v)) continue;
-        last[index(grain)] = static_cast<std::int32_t>(v);
-        ++result.grains[index(grain)].nodes;
+        if (grain < 0 || last[grain] == static_cast<std::int32_t>(v)) continue;
+        last[grain] = static_cast<std::int32_t>(v);
+        ++result.grains[grain].nodes;
       }
     }
   }
@@ -65,13 +65,13 @@ void count_nodes(ConformingGrains& result) {
 void measure_walls(ConformingGrains& result) {
   for (const WallTriangle& t : result.triangles) {
     for (const std::int32_t grain : {t.inner, t.outer}) {
-      if (grain >= 0) ++result.grains[index(grain)].triangles;
+      if (grain >= 0) ++result.grains[grain].triangles;
     }
   }
   result.walls = common_walls(result);
   for (const CommonWall& wall : result.walls) {
-    ++result.grains[index(wall.first)].contacts;
-    ++result.grains[index(wall.second)].contacts;
+    ++result.grains[wall.first].contacts;
+    ++result.grains[wall.second].contacts;
   }
 }
 
@@ -83,7 +83,7 @@ void measure_edges(ConformingGrains& result) {
   double flattest = -1.0;  // cosine
   for (const WallTriangle& t : result.triangles) {
     std::array<Vector3, 3> x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = result.points[index(t.corners[k])];
+    for (std::size_t k = 0; k < 3; ++k) x[k] = result.points[t.corners[k]];
     for (std::size_t k = 0; k < 3; ++k) {
       const double square = (x[k] - x[following(k)]).squaredNorm();
       sum += std::sqrt(square);
@@ -150,9 +150,9 @@ void remesh_walls(const DenseWalls& dense, const std::vector<double>& volumes,
   result.intersections = finished.pairs.size();
   for (const auto& [a, b] : finished.pairs) {
     for (const std::int32_t t : {a, b}) {
-      const WallTriangle& triangle = result.triangles[index(t)];
+      const WallTriangle& triangle = result.triangles[t];
       for (const std::int32_t grain : {triangle.inner, triangle.outer}) {
-        if (grain >= 0) result.grains[index(grain)].intersects = true;
+        if (grain >= 0) result.grains[grain].intersects = true;
       }
     }
   }
@@ -169,11 +169,10 @@ void remesh_walls(const DenseWalls& dense, const std::vector<double>& volumes,
 std::vector<double> edges_for(const WallComplex& walls, std::size_t bodies, int nodes) {
   std::vector<double> areas(bodies, 0.0);
   for (const WallTriangle& t : walls.triangles) {
-    const double area =
-        triangle_area(walls.points[index(t.corners[0])], walls.points[index(t.corners[1])],
-                      walls.points[index(t.corners[2])]);
+    const double area = triangle_area(walls.points[t.corners[0]], walls.points[t.corners[1]],
+                                      walls.points[t.corners[2]]);
     for (const std::int32_t body : {t.inner, t.outer}) {
-      if (body >= 0) areas[index(body)] += area;
+      if (body >= 0) areas[body] += area;
     }
   }
   const double of_triangles = std::sqrt(0.75) * nodes;  // edges squared

@@ -10,9 +10,7 @@
 #include "toolbox/fragment/common_walls.h"
 #include "toolbox/fragment/fragments.h"
 #include "toolbox/volume/label_volume.h"
-#include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/option.h"
 
 namespace wscvt {

@@ -22,7 +22,7 @@ std::vector<std::int32_t> line_ends(const std::vector<Face>& faces, const Groups
                                     std::size_t vertex) {
   std::vector<std::tuple<std::int32_t, std::int32_t, std::int32_t>> edges;
   for (const std::int32_t* f = faces_at.begin(vertex); f != faces_at.end(vertex); ++f) {
-    const Face& face = faces[index(*f)];
+    const Face& face = faces[*f];
     const std::size_t sides = face.corners.size();
     for (std::size_t k = 0; k < sides; ++k) {
       if (index(face.corners[k]) != vertex) continue;
@@ -63,12 +63,12 @@ class GrainMatrix {
   explicit GrainMatrix(std::size_t grains) : rows_(grains) {}
 
   void add(std::int32_t i, std::int32_t j, double value) {
-    for (auto& [column, sum] : rows_[index(i)]) {
+    for (auto& [column, sum] : rows_[i]) {
       if (column != j) continue;
       sum += value;
       return;
     }
-    rows_[index(i)].emplace_back(j, value);
+    rows_[i].emplace_back(j, value);
   }
 
   /// Solves by conjugate gradients, scaled by the diagonal.
@@ -98,7 +98,7 @@ class GrainMatrix {
       double curvature = 0.0;
       for (std::size_t i = 0; i < n; ++i) {
         ap[i] = 0.0;
-        for (const auto& [j, value] : rows_[i]) ap[i] += value * p[index(j)];
+        for (const auto& [j, value] : rows_[i]) ap[i] += value * p[j];
         curvature += p[i] * ap[i];
       }
       if (!(curvature > 0.0)) break;
@@ -132,12 +132,11 @@ std::vector<double> wall_volumes(const WallComplex& walls, std::size_t grains) {
   for (const WallTriangle& t : walls.triangles) {
     for (const std::int32_t grain : {t.inner, t.outer}) {
       if (grain < 0) continue;
-      if (origin[index(grain)] < 0) origin[index(grain)] = t.corners[0];
-      const Vector3& o = points[index(origin[index(grain)])];
+      if (origin[grain] < 0) origin[grain] = t.corners[0];
+      const Vector3& o = points[origin[grain]];
       const double six =
-          six_volumes(points[index(t.corners[0])] - o, points[index(t.corners[1])] - o,
-                      points[index(t.corners[2])] - o);
-      sums[index(grain)] += grain == t.inner ? six : -six;
+          six_volumes(points[t.corners[0]] - o, points[t.corners[1]] - o, points[t.corners[2]] - o);
+      sums[grain] += grain == t.inner ? six : -six;
     }
   }
   for (double& sum : sums) sum /= 6.0;
@@ -153,9 +152,9 @@ double restore_volumes(WallComplex& walls, const std::vector<double>& volumes,
     list.clear();
     double area = 0.0;
     for (const std::int32_t* k = at.begin(v); k != at.end(v); ++k) {
-      const WallTriangle& t = walls.triangles[index(*k)];
-      const Vector3 normal = doubled_area_normal(
-          points[index(t.corners[0])], points[index(t.corners[1])], points[index(t.corners[2])]);
+      const WallTriangle& t = walls.triangles[*k];
+      const Vector3 normal =
+          doubled_area_normal(points[t.corners[0]], points[t.corners[1]], points[t.corners[2]]);
       area += normal.norm() / 6.0;
       add_gradient(list, t.inner, normal / 6.0);
       if (t.outer >= 0) add_gradient(list, t.outer, -normal / 6.0);
@@ -193,7 +192,7 @@ double restore_volumes(WallComplex& walls, const std::vector<double>& volumes,
       const double area = gradients_at(v);
       if (!(area > 0.0)) continue;
       for (const VolumeGradient& one : list) {
-        moved[v] += shares[v] * lengths[index(one.grain)] / area * one.gradient;
+        moved[v] += shares[v] * lengths[one.grain] / area * one.gradient;
       }
     }
     points = std::move(moved);
@@ -222,7 +221,7 @@ DenseWalls::DenseWalls(VoxelWalls walls, int passes, const VolumeGeometry& geome
     std::array<std::int32_t, 4> c = quad.corners;
     if (is_left_handed) std::reverse(c.begin(), c.end());
     const auto length = [&](std::size_t a, std::size_t b) {
-      return (points[index(c[a])] - points[index(c[b])]).squaredNorm();
+      return (points[c[a]] - points[c[b]]).squaredNorm();
     };
     if (length(0, 2) > length(1, 3)) std::rotate(c.begin(), c.begin() + 1, c.end());
     walls_.triangles.push_back({{c[0], c[1], c[2]}, quad.inner, quad.outer});
@@ -238,8 +237,8 @@ void DenseWalls::find_normals() {
   for (std::size_t v = 0; v < points.size(); ++v) {
     Vector3 sum = Vector3::Zero();
     for (const std::int32_t* t = triangles_at_.begin(v); t != triangles_at_.end(v); ++t) {
-      const auto& [a, b, c] = walls_.triangles[index(*t)].corners;
-      sum += doubled_area_normal(points[index(a)], points[index(b)], points[index(c)]);
+      const auto& [a, b, c] = walls_.triangles[*t].corners;
+      sum += doubled_area_normal(points[a], points[b], points[c]);
     }
     normals_[v] = sum.normalized().cast<float>();
   }
@@ -252,9 +251,9 @@ void DenseWalls::find_places(const std::vector<Face>& faces, const Groups& faces
   line_of_.assign(count, -1);
   for (std::size_t v = 0; v < count; ++v) {
     // Most vertices have faces of one wall only.
-    const Face& first = faces[index(*faces_at.begin(v))];
+    const Face& first = faces[*faces_at.begin(v)];
     const bool is_within = std::all_of(faces_at.begin(v), faces_at.end(v), [&](std::int32_t f) {
-      return faces[index(f)].inner == first.inner && faces[index(f)].outer == first.outer;
+      return faces[f].inner == first.inner && faces[f].outer == first.outer;
     });
     if (is_within) continue;
     std::vector<std::int32_t> ends = line_ends(faces, faces_at, v);
@@ -269,9 +268,9 @@ bool DenseWalls::is_on_short_loop(std::size_t v) const {
   constexpr int most_steps = 16;
   if (places_[v] != WallPlace::Line) return false;
   auto before = static_cast<std::int32_t>(v);
-  std::int32_t at = line_neighbours_[index(line_of_[v])][0];
-  for (int step = 1; step < most_steps && places_[index(at)] == WallPlace::Line; ++step) {
-    const std::vector<std::int32_t>& ends = line_neighbours_[index(line_of_[index(at)])];
+  std::int32_t at = line_neighbours_[line_of_[v]][0];
+  for (int step = 1; step < most_steps && places_[at] == WallPlace::Line; ++step) {
+    const std::vector<std::int32_t>& ends = line_neighbours_[line_of_[at]];
     const std::int32_t next = ends[0] == before ? ends[1] : ends[0];
     if (index(next) == v) return true;
     before = at;
@@ -295,16 +294,16 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
   const auto mean_at = [&](std::size_t v) {
     Vector3 sum = Vector3::Zero();
     if (line_of_[v] >= 0) {
-      const std::vector<std::int32_t>& ends = line_neighbours_[index(line_of_[v])];
-      for (const std::int32_t end : ends) sum += walls_.points[index(end)];
+      const std::vector<std::int32_t>& ends = line_neighbours_[line_of_[v]];
+      for (const std::int32_t end : ends) sum += walls_.points[end];
       return Vector3(sum / static_cast<double>(ends.size()));
     }
     int count = 0;
     for (const std::int32_t* q = quads_at.begin(v); q != quads_at.end(v); ++q) {
-      const auto& c = walls.quads[index(*q)].corners;
+      const auto& c = walls.quads[*q].corners;
       const auto k = static_cast<std::size_t>(
           std::find(c.begin(), c.end(), static_cast<std::int32_t>(v)) - c.begin());
-      sum += walls_.points[index(c[(k + 1) % 4])] + walls_.points[index(c[(k + 3) % 4])];
+      sum += walls_.points[c[(k + 1) % 4]] + walls_.points[c[(k + 3) % 4]];
       count += 2;
     }
     return Vector3(sum / count);
@@ -333,28 +332,28 @@ WallPoint DenseWalls::nearest_on_wall(std::int32_t from, const Vector3& target, 
   const auto visit_corners = [&](std::int32_t vertex, const auto& visit) {
     for (const std::int32_t* t = triangles_at_.begin(index(vertex));
          t != triangles_at_.end(index(vertex)); ++t) {
-      const WallTriangle& triangle = walls_.triangles[index(*t)];
+      const WallTriangle& triangle = walls_.triangles[*t];
       if (triangle.inner == inner && triangle.outer == outer) visit(triangle.corners);
     }
   };
   std::int32_t best = from;
-  double distance = (walls_.points[index(from)] - target).squaredNorm();
+  double distance = (walls_.points[from] - target).squaredNorm();
   for (std::int32_t at = -1; at != best;) {
     at = best;
     visit_corners(at, [&](const Triangle& corners) {
       for (const std::int32_t corner : corners) {
-        const double d = (walls_.points[index(corner)] - target).squaredNorm();
+        const double d = (walls_.points[corner] - target).squaredNorm();
         if (d >= distance) continue;
         distance = d;
         best = corner;
       }
     });
   }
-  WallPoint result{walls_.points[index(best)], best};
+  WallPoint result{walls_.points[best], best};
   visit_corners(best, [&](const Triangle& c) {
-    const Vector3& p = walls_.points[index(c[0])];
-    const Vector3& q = walls_.points[index(c[1])];
-    const Vector3& r = walls_.points[index(c[2])];
+    const Vector3& p = walls_.points[c[0]];
+    const Vector3& q = walls_.points[c[1]];
+    const Vector3& r = walls_.points[c[2]];
     const Vector3 w = nearest_weights(p, q, r, target);
     const Vector3 near = w[0] * p + w[1] * q + w[2] * r;
     const double d = (near - target).squaredNorm();
@@ -367,24 +366,23 @@ WallPoint DenseWalls::nearest_on_wall(std::int32_t from, const Vector3& target, 
 
 WallPoint DenseWalls::nearest_on_line(std::int32_t from, const Vector3& target) const {
   std::int32_t best = from;
-  double distance = (walls_.points[index(from)] - target).squaredNorm();
+  double distance = (walls_.points[from] - target).squaredNorm();
   for (std::int32_t at = -1; at != best;) {
     at = best;
-    for (const std::int32_t end : line_neighbours_[index(line_of_[index(at)])]) {
-      const double d = (walls_.points[index(end)] - target).squaredNorm();
-      if (d >= distance || places_[index(end)] != WallPlace::Line) continue;
+    for (const std::int32_t end : line_neighbours_[line_of_[at]]) {
+      const double d = (walls_.points[end] - target).squaredNorm();
+      if (d >= distance || places_[end] != WallPlace::Line) continue;
       distance = d;
       best = end;
     }
   }
-  WallPoint result{walls_.points[index(best)], best};
-  for (const std::int32_t end : line_neighbours_[index(line_of_[index(best)])]) {
-    const Vector3 along = walls_.points[index(end)] - walls_.points[index(best)];
+  WallPoint result{walls_.points[best], best};
+  for (const std::int32_t end : line_neighbours_[line_of_[best]]) {
+    const Vector3 along = walls_.points[end] - walls_.points[best];
     const double square = along.squaredNorm();
     if (!(square > 0.0)) continue;
-    const double share =
-        std::clamp(along.dot(target - walls_.points[index(best)]) / square, 0.0, 1.0);
-    const Vector3 near = walls_.points[index(best)] + share * along;
+    const double share = std::clamp(along.dot(target - walls_.points[best]) / square, 0.0, 1.0);
+    const Vector3 near = walls_.points[best] + share * along;
     const double d = (near - target).squaredNorm();
     if (!(d < distance)) continue;
     distance = d;

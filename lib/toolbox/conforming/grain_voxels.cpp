@@ -334,15 +334,15 @@ std::vector<GrainPieces> keep_largest_pieces(GrainVoxels& voxels, std::size_t gr
     const std::int32_t g = voxels.grain[k];
     if (g < 0 || search.was_seen(k)) continue;
     PieceSearch::Piece piece = search.find(k, no_visit);
-    PieceSearch::Piece& best = largest[static_cast<std::size_t>(g)];
-    ++rows[static_cast<std::size_t>(g)].pieces;
+    PieceSearch::Piece& best = largest[g];
+    ++rows[g].pieces;
     if (piece.voxels > best.voxels) std::swap(piece, best);
     if (piece.voxels > 0) others.push_back(piece);
   }
   for (std::size_t g = 0; g < grains; ++g) rows[g].voxels = largest[g].voxels;
   search.forget();
   for (const PieceSearch::Piece& piece : others) {
-    rows[static_cast<std::size_t>(voxels.grain[piece.start])].left_out += piece.voxels;
+    rows[voxels.grain[piece.start]].left_out += piece.voxels;
     search.find(piece.start, fill(-1));
   }
   search.forget();
@@ -357,8 +357,8 @@ std::vector<GrainPieces> keep_largest_pieces(GrainVoxels& voxels, std::size_t gr
   search.forget();
   for (const PieceSearch::Piece& pore : pores) {
     search.find(pore.start, fill(pore.neighbour));
-    rows[static_cast<std::size_t>(pore.neighbour)].voxels += pore.voxels;
-    rows[static_cast<std::size_t>(pore.neighbour)].pore_voxels += pore.voxels;
+    rows[pore.neighbour].voxels += pore.voxels;
+    rows[pore.neighbour].pore_voxels += pore.voxels;
   }
   set_rim(voxels, -1);
   return rows;

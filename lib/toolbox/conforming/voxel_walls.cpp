@@ -28,7 +28,7 @@ class WallMaker {
 
  private:
   void add_vertices(std::int32_t z) {
-    std::vector<std::int32_t>& layer = layers_[static_cast<std::size_t>(z % 2)];
+    std::vector<std::int32_t>& layer = layers_[z % 2];
     for (std::int32_t y = 1; y < voxels_.counts[1]; ++y) {
       for (std::int32_t x = 1; x < voxels_.counts[0]; ++x) {
         std::array<std::int32_t, 8> block{};
@@ -93,8 +93,8 @@ class WallMaker {
         for (std::size_t a = 0; a < 3; ++a) {
           octant |= static_cast<std::size_t>(inside[a] - corner[a] + 1) << a;
         }
-        quad.corners[k] = layers_[static_cast<std::size_t>(corner[2] % 2)]
-                                 [8 * voxels_.place(corner[0], corner[1], 0) + octant];
+        quad.corners[k] =
+            layers_[corner[2] % 2][8 * voxels_.place(corner[0], corner[1], 0) + octant];
       }
       if (high > low) std::reverse(quad.corners.begin(), quad.corners.end());
       walls_.quads.push_back(quad);

@@ -51,9 +51,9 @@ void WallMesh::enter(std::size_t t, std::size_t k) {
 
 void WallMesh::remove(std::size_t t, std::size_t k) {
   const auto c = static_cast<std::int32_t>(3 * t + k);
-  std::int32_t* place = &first_[index(triangles[t].corners[k])];
-  while (*place != c) place = &next_[index(*place)];
-  *place = next_[index(c)];
+  std::int32_t* place = &first_[triangles[t].corners[k]];
+  while (*place != c) place = &next_[*place];
+  *place = next_[c];
 }
 
 void WallMesh::kill(std::size_t t) {
@@ -89,7 +89,7 @@ WallVertices WallMesh::line_neighbours(std::int32_t v) const {
   WallVertices found;
   visit_triangles(v, [&](std::size_t t) {
     for (const std::int32_t other : triangles[t].corners) {
-      if (other == v || places[index(other)] == WallPlace::Wall || has(seen, other)) continue;
+      if (other == v || places[other] == WallPlace::Wall || has(seen, other)) continue;
       seen.push_back(other);
       if (is_line(triangles_at(v, other))) found.push_back(other);
     }
@@ -164,8 +164,8 @@ double WallMesh::agreement(const Triangle& corners, const Vector3& normal) const
   double least = unknown;
   const double length = normal.norm();
   for (const std::int32_t v : corners) {
-    if (places[index(v)] != WallPlace::Wall || anchors[index(v)] < 0) continue;
-    const Vector3 outward = dense_.normals()[index(anchors[index(v)])].cast<double>();
+    if (places[v] != WallPlace::Wall || anchors[v] < 0) continue;
+    const Vector3 outward = dense_.normals()[anchors[v]].cast<double>();
     least = std::min(least, length > 0.0 ? normal.dot(outward) / length : -1.0);
   }
   return least;
@@ -187,7 +187,7 @@ bool WallMesh::may_become(std::size_t t, const Triangle& corners, const std::arr
 
 Vector3 WallMesh::normal_of(std::size_t t) const {
   const Triangle& c = triangles[t].corners;
-  return doubled_area_normal(points[index(c[0])], points[index(c[1])], points[index(c[2])]);
+  return doubled_area_normal(points[c[0]], points[c[1]], points[c[2]]);
 }
 
 bool WallMesh::is_sliver(std::size_t t) const {
@@ -198,7 +198,7 @@ bool WallMesh::is_sliver(std::size_t t) const {
 
 double WallMesh::evenness_of(std::size_t t) const {
   const Triangle& c = triangles[t].corners;
-  return evenness(points[index(c[0])], points[index(c[1])], points[index(c[2])]);
+  return evenness(points[c[0]], points[c[1]], points[c[2]]);
 }
 
 bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t into,
@@ -208,8 +208,8 @@ bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t 
     if (!keeps || corner(t, other) < 3) return;
     const std::size_t k = corner(t, moved);
     const Triangle& c = triangles[t].corners;
-    const Vector3& a = points[index(c[following(k)])];
-    const Vector3& b = points[index(c[preceding(k)])];
+    const Vector3& a = points[c[following(k)]];
+    const Vector3& b = points[c[preceding(k)]];
     const double limit = longest * longest;
     if (std::max((a - position).squaredNorm(), (b - position).squaredNorm()) > limit) keeps = false;
     const Vector3 after = doubled_area_normal(position, a, b);
@@ -237,7 +237,7 @@ bool WallMesh::keeps_shape(std::int32_t moved, std::int32_t other, std::int32_t 
 
 bool WallMesh::keeps_lines(std::int32_t gone, std::int32_t kept,
                            const EdgeTriangles& at_edge) const {
-  const WallPlace place = places[index(gone)];
+  const WallPlace place = places[gone];
   if (place == WallPlace::Wall) return true;
   const bool is_on_line = is_line(at_edge);
   if (!is_on_line && !drops_walls) return false;
@@ -247,33 +247,32 @@ bool WallMesh::keeps_lines(std::int32_t gone, std::int32_t kept,
     if (end == kept) continue;
     const EdgeTriangles across = triangles_at(end, kept);
     if (across.empty() || !is_line(across)) continue;
-    if (!drops_walls || places[index(end)] != WallPlace::Point) return false;
+    if (!drops_walls || places[end] != WallPlace::Point) return false;
   }
   return true;
 }
 
 bool WallMesh::collapse(std::int32_t gone, std::int32_t kept, const Vector3& position,
                         double longest, double evenness) {
-  if (places[index(gone)] > places[index(kept)]) return false;
+  if (places[gone] > places[kept]) return false;
   const EdgeTriangles at_edge = triangles_at(gone, kept);
   if (!keeps_lines(gone, kept, at_edge)) return false;
-  const bool is_point = places[index(gone)] != WallPlace::Wall && !is_line(at_edge);
+  const bool is_point = places[gone] != WallPlace::Wall && !is_line(at_edge);
   if (!keeps_links(gone, kept, at_edge) ||
       !keeps_shape(gone, kept, kept, position, longest, evenness)) {
     return false;
   }
-  if (position != points[index(kept)] &&
-      !keeps_shape(kept, gone, kept, position, longest, evenness))
+  if (position != points[kept] && !keeps_shape(kept, gone, kept, position, longest, evenness))
     return false;
   for (const std::size_t t : at_edge) kill(t);
-  while (first_[index(gone)] >= 0) {
-    const std::size_t c = index(first_[index(gone)]);
+  while (first_[gone] >= 0) {
+    const std::size_t c = index(first_[gone]);
     remove(c / 3, c % 3);
     triangles[c / 3].corners[c % 3] = kept;
     enter(c / 3, c % 3);
   }
-  points[index(kept)] = position;
-  if (is_point) places[index(kept)] = WallPlace::Point;
+  points[kept] = position;
+  if (is_point) places[kept] = WallPlace::Point;
   return true;
 }
 
@@ -282,11 +281,11 @@ std::int32_t WallMesh::split(std::int32_t a, std::int32_t b) {
   const bool is_on_line = is_line(at_edge);
   const auto middle = static_cast<std::int32_t>(points.size());
   const WallPlace place = is_on_line ? WallPlace::Line : WallPlace::Wall;
-  points.emplace_back(0.5 * (points[index(a)] + points[index(b)]));
+  points.emplace_back(0.5 * (points[a] + points[b]));
   places.push_back(place);
   // A line's node needs an anchor on the line, which points are not; -1: there is none.
-  std::int32_t anchor = places[index(a)] == place ? anchors[index(a)] : anchors[index(b)];
-  if (is_on_line && places[index(a)] != place && places[index(b)] != place) anchor = -1;
+  std::int32_t anchor = places[a] == place ? anchors[a] : anchors[b];
+  if (is_on_line && places[a] != place && places[b] != place) anchor = -1;
   anchors.push_back(anchor);
   first_.push_back(-1);
   for (const std::size_t t : at_edge) {
@@ -323,10 +322,10 @@ bool WallMesh::flip(std::int32_t a, std::int32_t b) {
   if (triangles[s].corners[following(corner(s, a))] != b) std::swap(s, t);
   const std::int32_t c = triangles[s].corners[following(corner(s, b))];
   const std::int32_t d = triangles[t].corners[following(corner(t, a))];
-  const Vector3& pa = points[index(a)];
-  const Vector3& pb = points[index(b)];
-  const Vector3& pc = points[index(c)];
-  const Vector3& pd = points[index(d)];
+  const Vector3& pa = points[a];
+  const Vector3& pb = points[b];
+  const Vector3& pc = points[c];
+  const Vector3& pd = points[d];
   const double before = std::min(evenness(pa, pb, pc), evenness(pb, pa, pd));
   const double after = std::min(evenness(pa, pd, pc), evenness(pd, pb, pc));
   if (!(after > before + 1e-6) || c == d || !triangles_at(c, d).empty()) return false;
@@ -374,7 +373,7 @@ void WallMesh::compact() {
                                  [](const WallTriangle& t) { return t.corners[0] < 0; }),
                   triangles.end());
   for (WallTriangle& t : triangles) {
-    for (std::int32_t& corner : t.corners) corner = number[index(corner)];
+    for (std::int32_t& corner : t.corners) corner = number[corner];
   }
   link();
 }

@@ -32,7 +32,7 @@ class WallMesh : public WallComplex {  // dead triangles have the corner -1
   /// Calls visit(t) for each triangle at a vertex.
   template <class Visit>
   void visit_triangles(std::int32_t v, const Visit& visit) const {
-    for (std::int32_t c = first_[index(v)]; c >= 0; c = next_[index(c)]) visit(index(c) / 3);
+    for (std::int32_t c = first_[v]; c >= 0; c = next_[c]) visit(index(c) / 3);
   }
 
   /// Returns the triangles at an edge.

@@ -36,8 +36,8 @@ WallRemesher::WallRemesher(const DenseWalls& dense, std::vector<double> edges)
     : dense_(dense), edges_(std::move(edges)), first_edges_(edges_), mesh_(dense) {}
 
 double WallRemesher::edge_of(const WallTriangle& t) const {
-  const double inner = edges_[index(t.inner)];
-  return factor_ * (t.outer < 0 ? inner : std::sqrt(inner * edges_[index(t.outer)]));
+  const double inner = edges_[t.inner];
+  return factor_ * (t.outer < 0 ? inner : std::sqrt(inner * edges_[t.outer]));
 }
 
 double WallRemesher::wanted(std::int32_t a, std::int32_t b) const {
@@ -57,13 +57,13 @@ void WallRemesher::collapse_short(double most) {
     for (std::size_t k = 0; k < 3 && mesh_.is_alive(t); ++k) {
       const std::int32_t a = mesh_.triangles[t].corners[k];
       const std::int32_t b = mesh_.triangles[t].corners[following(k)];
-      const double square = (mesh_.points[index(a)] - mesh_.points[index(b)]).squaredNorm();
+      const double square = (mesh_.points[a] - mesh_.points[b]).squaredNorm();
       if (square > most * most) continue;
       const double length = wanted(a, b);
       double limit = std::min(most, shortest_share * length);
-      if (mesh_.places[index(a)] != WallPlace::Wall && mesh_.places[index(b)] != WallPlace::Wall) {
-        const bool are_points = mesh_.places[index(a)] == WallPlace::Point &&
-                                mesh_.places[index(b)] == WallPlace::Point;
+      if (mesh_.places[a] != WallPlace::Wall && mesh_.places[b] != WallPlace::Wall) {
+        const bool are_points =
+            mesh_.places[a] == WallPlace::Point && mesh_.places[b] == WallPlace::Point;
         if (are_points || !mesh_.is_line(mesh_.triangles_at(a, b))) {
           limit = std::min(limit, narrow_share * length);
         }
@@ -89,9 +89,8 @@ void WallRemesher::collapse_narrow() {
       const std::int32_t a = mesh_.triangles[t].corners[k];
       const std::int32_t b = mesh_.triangles[t].corners[following(k)];
       const double length = wanted(a, b);
-      const double share = (mesh_.points[index(a)] - mesh_.points[index(b)]).norm() / length;
-      const bool is_within =
-          std::min(mesh_.places[index(a)], mesh_.places[index(b)]) == WallPlace::Wall;
+      const double share = (mesh_.points[a] - mesh_.points[b]).norm() / length;
+      const bool is_within = std::min(mesh_.places[a], mesh_.places[b]) == WallPlace::Wall;
       const bool is_flat = mesh_.evenness_of(t) < flat_evenness;
       if (share > (is_within || is_flat ? narrow_share : tiny_share)) continue;
       // Longer edges and flatter triangles than elsewhere: nothing else takes such an edge away.
@@ -105,11 +104,10 @@ void WallRemesher::collapse_narrow() {
 }
 
 bool WallRemesher::join(std::int32_t a, std::int32_t b, double longest, double evenness) {
-  if (mesh_.places[index(a)] > mesh_.places[index(b)]) std::swap(a, b);
-  const bool is_between = mesh_.places[index(a)] == mesh_.places[index(b)];
-  const Vector3 position = is_between
-                               ? Vector3(0.5 * (mesh_.points[index(a)] + mesh_.points[index(b)]))
-                               : mesh_.points[index(b)];
+  if (mesh_.places[a] > mesh_.places[b]) std::swap(a, b);
+  const bool is_between = mesh_.places[a] == mesh_.places[b];
+  const Vector3 position =
+      is_between ? Vector3(0.5 * (mesh_.points[a] + mesh_.points[b])) : mesh_.points[b];
   return mesh_.collapse(a, b, position, longest, evenness);
 }
 
@@ -120,8 +118,8 @@ void WallRemesher::widen_small() {
     std::array<Vector3, 3> x;
     double shortest = unlimited;
     for (std::size_t k = 0; k < 3; ++k) {
-      x[k] = mesh_.points[index(wall.corners[k])];
-      const Vector3& next = mesh_.points[index(wall.corners[following(k)])];
+      x[k] = mesh_.points[wall.corners[k]];
+      const Vector3& next = mesh_.points[wall.corners[following(k)]];
       shortest = std::min(shortest, (next - x[k]).norm());
     }
     const double least = narrow_share * edge_of(wall) / factor_;
@@ -137,7 +135,7 @@ void WallRemesher::widen_small() {
     const Vector3 arm = least / (2.0 * sine) * mean.normalized();
     const std::array<Vector3, 3> even = {middle + arm, middle + turned(arm, 1.0),
                                          middle + turned(arm, -1.0)};
-    for (std::size_t k = 0; k < 3; ++k) mesh_.points[index(wall.corners[k])] = even[k];
+    for (std::size_t k = 0; k < 3; ++k) mesh_.points[wall.corners[k]] = even[k];
   }
 }
 
@@ -151,8 +149,7 @@ void WallRemesher::split_long() {
       double square = 0.0;
       for (std::size_t k = 0; k < 3; ++k) {
         const Triangle& c = mesh_.triangles[t].corners;
-        const double s =
-            (mesh_.points[index(c[k])] - mesh_.points[index(c[following(k)])]).squaredNorm();
+        const double s = (mesh_.points[c[k]] - mesh_.points[c[following(k)]]).squaredNorm();
         if (s <= square) continue;
         square = s;
         longest = k;
@@ -178,11 +175,11 @@ void WallRemesher::flip_all(bool only_flat) {
 }
 
 Vector3 WallRemesher::relaxed(std::int32_t v) const {
-  const Vector3& p = mesh_.points[index(v)];
-  if (mesh_.places[index(v)] == WallPlace::Line) {
+  const Vector3& p = mesh_.points[v];
+  if (mesh_.places[v] == WallPlace::Line) {
     const WallVertices ends = mesh_.line_neighbours(v);
     if (ends.size() != 2) return p;
-    return 0.5 * p + 0.25 * (mesh_.points[index(ends[0])] + mesh_.points[index(ends[1])]);
+    return 0.5 * p + 0.25 * (mesh_.points[ends[0]] + mesh_.points[ends[1]]);
   }
   // The centroid of the triangles about the node, without the part along the normal.
   Vector3 sum = Vector3::Zero();
@@ -190,9 +187,9 @@ Vector3 WallRemesher::relaxed(std::int32_t v) const {
   double area = 0.0;
   mesh_.visit_triangles(v, [&](std::size_t t) {
     const Triangle& c = mesh_.triangles[t].corners;
-    const Vector3& x = mesh_.points[index(c[0])];
-    const Vector3& y = mesh_.points[index(c[1])];
-    const Vector3& z = mesh_.points[index(c[2])];
+    const Vector3& x = mesh_.points[c[0]];
+    const Vector3& y = mesh_.points[c[1]];
+    const Vector3& z = mesh_.points[c[2]];
     const Vector3 n = doubled_area_normal(x, y, z);
     const double weight = n.norm();
     normal += n;
@@ -206,9 +203,9 @@ Vector3 WallRemesher::relaxed(std::int32_t v) const {
 }
 
 WallPoint WallRemesher::placed(std::int32_t v, const Vector3& target) const {
-  const std::int32_t anchor = mesh_.anchors[index(v)];
+  const std::int32_t anchor = mesh_.anchors[v];
   if (anchor < 0) return {target, anchor};
-  if (mesh_.places[index(v)] == WallPlace::Line) return dense_.nearest_on_line(anchor, target);
+  if (mesh_.places[v] == WallPlace::Line) return dense_.nearest_on_line(anchor, target);
   WallPoint place{target, anchor};
   bool is_first = true;
   mesh_.visit_triangles(v, [&](std::size_t t) {
@@ -239,7 +236,7 @@ void WallRemesher::relax(int times, const Execution& execution) {
       mesh_.visit_triangles(static_cast<std::int32_t>(k), [&](std::size_t t) {
         std::array<Vector3, 3> x;
         for (std::size_t c = 0; c < 3; ++c) {
-          x[c] = mesh_.points[index(mesh_.triangles[t].corners[c])];
+          x[c] = mesh_.points[mesh_.triangles[t].corners[c]];
         }
         for (std::size_t c = 0; c < 3; ++c) {
           if (index(mesh_.triangles[t].corners[c]) == k) x[c] = moved[k].point;
@@ -261,7 +258,7 @@ double WallRemesher::mean_ratio() const {
     if (t.corners[0] < 0) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const double length =
-          (mesh_.points[index(t.corners[k])] - mesh_.points[index(t.corners[following(k)])]).norm();
+          (mesh_.points[t.corners[k]] - mesh_.points[t.corners[following(k)]]).norm();
       sum += length / (edge_of(t) / factor_);
       count += 1.0;
     }
@@ -303,8 +300,8 @@ void WallRemesher::find_edges(int nodes, const std::vector<double>& least) {
   std::vector<double> counts(edges_.size(), 2.0);
   for (const WallTriangle& t : mesh_.triangles) {
     if (t.corners[0] < 0) continue;
-    counts[index(t.inner)] += 0.5;
-    if (t.outer >= 0) counts[index(t.outer)] += 0.5;
+    counts[t.inner] += 0.5;
+    if (t.outer >= 0) counts[t.outer] += 0.5;
   }
   // Lines and points have no choice, and edges that follow them would run away.
   constexpr double most = 1.5;

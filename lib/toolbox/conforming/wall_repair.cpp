@@ -28,7 +28,7 @@ class WallPairs {
     std::vector<std::int32_t> asked;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const Triangle& c = mesh_.triangles[t];
-      if (std::any_of(c.begin(), c.end(), [&](auto v) { return near[index(v)] != 0; })) {
+      if (std::any_of(c.begin(), c.end(), [&](auto v) { return near[v] != 0; })) {
         asked.push_back(static_cast<std::int32_t>(t));
       }
     }
@@ -47,22 +47,22 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
   std::vector<Vector3> shift(mesh.points.size(), Vector3::Zero());
   std::vector<char> is_knot(mesh.points.size(), 0);
   for (const auto& [first, second] : pairs) {
-    const WallTriangle& a = mesh.triangles[index(first)];
-    const WallTriangle& b = mesh.triangles[index(second)];
+    const WallTriangle& a = mesh.triangles[first];
+    const WallTriangle& b = mesh.triangles[second];
     const bool are_free = a.outer < 0 && b.outer < 0;
     const bool touch = std::any_of(a.corners.begin(), a.corners.end(), [&](std::int32_t corner) {
       return std::find(b.corners.begin(), b.corners.end(), corner) != b.corners.end();
     });
     for (const WallTriangle* t : {&a, &b}) {
       const Vector3 normal =
-          doubled_area_normal(mesh.points[index(t->corners[0])], mesh.points[index(t->corners[1])],
-                              mesh.points[index(t->corners[2])])
+          doubled_area_normal(mesh.points[t->corners[0]], mesh.points[t->corners[1]],
+                              mesh.points[t->corners[2]])
               .normalized();
       for (const std::int32_t corner : t->corners) {
         if (are_free && !touch) {
-          shift[index(corner)] += a.inner == b.inner ? normal : Vector3(-normal);
+          shift[corner] += a.inner == b.inner ? normal : Vector3(-normal);
         } else {
-          is_knot[index(corner)] = 1;
+          is_knot[corner] = 1;
         }
       }
     }
@@ -73,7 +73,7 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
       Vector3 sum = Vector3::Zero();
       double count = 0.0;
       const auto add = [&](std::int32_t other) {
-        sum += before[index(other)];
+        sum += before[other];
         count += 1.0;
       };
       if (mesh.places[v] == WallPlace::Line) {
@@ -104,7 +104,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
-    for (const std::int32_t v : vertices_of(pairs, walls.triangles())) is_near[index(v)] = 1;
+    for (const std::int32_t v : vertices_of(pairs, walls.triangles())) is_near[v] = 1;
     part_pairs(mesh, pairs, step * dense_edge);
     pairs = walls.near(mesh.points, is_near, execution);
   }
@@ -114,7 +114,7 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   // by 18 % of its area between two pyramids, by 2 % with a tenth of the move.
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.is_alone(t)) continue;
-    for (const std::int32_t v : mesh.triangles[t].corners) shares[index(v)] = 0.1;
+    for (const std::int32_t v : mesh.triangles[t].corners) shares[v] = 0.1;
   }
   FinishedWalls result;
   for (int k = 0; k < most_restorations; ++k) {
@@ -126,11 +126,11 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
     if (k == 0 || result.pairs.empty()) result.pairs = walls.all(mesh.points, execution);
     if (result.pairs.empty()) break;
     for (const std::int32_t v : vertices_of(result.pairs, walls.triangles())) {
-      shares[index(v)] *= 0.1;
+      shares[v] *= 0.1;
       mesh.visit_triangles(v, [&](std::size_t t) {
         for (const std::int32_t c : mesh.triangles[t].corners) {
-          is_near[index(c)] = 1;
-          shares[index(c)] = std::min(shares[index(c)], 3.0 * shares[index(v)]);
+          is_near[c] = 1;
+          shares[c] = std::min(shares[c], 3.0 * shares[v]);
         }
       });
     }

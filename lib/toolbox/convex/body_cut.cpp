@@ -62,7 +62,7 @@ void CutSolid::append_pieces(const std::vector<Vector3>& points, const Side& sid
       piece = static_cast<std::int32_t>(found.size());
       found.push_back(CutSolid());
     }
-    CutSolid& solid = found[static_cast<std::size_t>(piece)];
+    CutSolid& solid = found[piece];
     const std::size_t first = solid.edges_.size();
     for (std::size_t e = face.first; e < face.last; ++e) {
       Edge edge = side.edges[e];

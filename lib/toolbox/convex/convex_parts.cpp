@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
-#include <cmath>
 #include <utility>
 
 #include "toolbox/convex/convex_body.h"

@@ -2,11 +2,9 @@
 #include "toolbox/convex/cut_choice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 #include "wscvt/base/portable_math.h"
 

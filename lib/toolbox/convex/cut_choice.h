@@ -7,7 +7,6 @@
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/execution.h"
-#include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "wscvt/base/portable_math.h"
@@ -187,7 +186,7 @@ bool CutTree::move_plane(std::size_t node, double step, std::vector<PieceGroup>&
   const auto best = std::max_element(trials.begin(), trials.end(),
                                      [](const auto& a, const auto& b) { return a.gain < b.gain; });
   if (!(best->gain > least_gain * total_cost(groups))) return false;
-  nodes_[node].plane = planes[static_cast<std::size_t>(best - trials.begin())];
+  nodes_[node].plane = planes[best - trials.begin()];
   for (auto& [moved, piece] : best->solids) {
     if (nodes_[moved].is_piece()) nodes_[moved].body = convex_body(piece.points());
     nodes_[moved].solid = std::move(piece);

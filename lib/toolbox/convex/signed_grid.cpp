@@ -15,8 +15,7 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
   spacing_ = size.maxCoeff() / cells;
   origin_ = box.min() - Vector3::Constant(spacing_);
   for (int axis = 0; axis < 3; ++axis) {
-    counts_[static_cast<std::size_t>(axis)] =
-        static_cast<int>(std::ceil(size[axis] / spacing_)) + 3;
+    counts_[axis] = static_cast<int>(std::ceil(size[axis] / spacing_)) + 3;
   }
   values_.resize(index(0, 0, counts_[2]));
   const auto rows = static_cast<std::size_t>(counts_[1]) * static_cast<std::size_t>(counts_[2]);
@@ -50,11 +49,11 @@ double SignedGrid::at(const Vector3& point) const {
   std::array<int, 3> cell{};
   Vector3 part;
   for (int axis = 0; axis < 3; ++axis) {
-    const int last = counts_[static_cast<std::size_t>(axis)] - 1;
+    const int last = counts_[axis] - 1;
     const double place =
         std::clamp((point[axis] - origin_[axis]) / spacing_, 0.0, static_cast<double>(last));
     const int first = std::min(static_cast<int>(place), last - 1);
-    cell[static_cast<std::size_t>(axis)] = first;
+    cell[axis] = first;
     part[axis] = place - first;
   }
   double value = 0.0;
@@ -64,7 +63,7 @@ double SignedGrid::at(const Vector3& point) const {
     for (int axis = 0; axis < 3; ++axis) {
       const bool upper = ((corner >> axis) & 1) != 0;
       weight *= upper ? part[axis] : 1.0 - part[axis];
-      at[static_cast<std::size_t>(axis)] += upper ? 1 : 0;
+      at[axis] += upper ? 1 : 0;
     }
     value += weight * values_[index(at[0], at[1], at[2])];
   }

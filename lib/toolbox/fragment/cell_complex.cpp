@@ -47,13 +47,13 @@ struct CellComplex::Insertion {
 };
 
 void CellComplex::add_face(Face face) {
-  cells_[static_cast<std::size_t>(face.front)].faces.push_back(faces_.size());
-  if (face.is_wall()) cells_[static_cast<std::size_t>(face.back)].faces.push_back(faces_.size());
+  cells_[face.front].faces.push_back(faces_.size());
+  if (face.is_wall()) cells_[face.back].faces.push_back(faces_.size());
   faces_.push_back(std::move(face));
 }
 
 void CellComplex::renew_faces(std::int32_t number) {
-  Cell& cell = cells_[static_cast<std::size_t>(number)];
+  Cell& cell = cells_[number];
   std::vector<std::size_t> kept;
   double farthest = 0.0;
   for (const std::size_t f : cell.faces) {
@@ -73,7 +73,7 @@ void CellComplex::insert(const CellSite& site) {
   const auto old_points = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> near;
   for (std::int32_t i = 0; i < number; ++i) {
-    const Cell& cell = cells_[static_cast<std::size_t>(i)];
+    const Cell& cell = cells_[i];
     const double apart = (site.point - cell.site.point).norm();
     if (!(apart > 0.0)) refuse("Two fragments start at the same point. Give different points.");
     // The margin keeps rounding from passing over a cell that shares a point above the plane.
@@ -93,14 +93,13 @@ void CellComplex::insert(const CellSite& site) {
     for (std::size_t f = 0; f < faces_.size(); ++f) cells_[0].faces.push_back(f);
   }
   for (const std::int32_t i : near) {
-    const std::vector<std::size_t> faces = cells_[static_cast<std::size_t>(i)].faces;
+    const std::vector<std::size_t> faces = cells_[i].faces;
     for (const std::size_t f : faces) cut_face(f, insertion);
   }
   for (const std::int32_t i : near) {
-    const FaceEdges& edges = insertion.walls[static_cast<std::size_t>(i)];
+    const FaceEdges& edges = insertion.walls[i];
     if (edges.empty()) continue;
-    const Vector3 normal =
-        (site.point - cells_[static_cast<std::size_t>(i)].site.point).normalized();
+    const Vector3 normal = (site.point - cells_[i].site.point).normalized();
     for (FaceEdges& wall : faces_of(points_, edges, normal)) {
       add_face({std::move(wall), normal, i, number});
     }
@@ -130,14 +129,13 @@ void CellComplex::cut_face(std::size_t f, Insertion& insertion) {
     return;
   }
   FaceParts& parts = insertion.parts;
-  const Vector3 to_site =
-      insertion.site.point - cells_[static_cast<std::size_t>(face.front)].site.point;
+  const Vector3 to_site = insertion.site.point - cells_[face.front].site.point;
   insertion.cutter.divide(face.edges.data(), face.edges.data() + face.edges.size(),
                           face.normal.cross(to_site), parts);
   for (std::size_t k = 0; k < parts.down.size(); ++k) {
-    insertion.walls[static_cast<std::size_t>(face.front)].push_back({parts.down[k], parts.up[k]});
+    insertion.walls[face.front].push_back({parts.down[k], parts.up[k]});
     if (!face.is_wall()) continue;
-    insertion.walls[static_cast<std::size_t>(face.back)].push_back({parts.up[k], parts.down[k]});
+    insertion.walls[face.back].push_back({parts.up[k], parts.down[k]});
   }
   std::vector<FaceEdges> below = faces_of(points_, parts.below, face.normal);
   face.edges = std::move(below.front());
@@ -195,7 +193,7 @@ void add_pieces(const CellComplex& complex, const std::vector<std::size_t>& face
     const bool is_front = face.front == cell;
     pieces.of_face[f][is_front ? 0 : 1] = found->second;
     const double share = volume_share(complex.points(), face.edges, complex.points().front());
-    pieces.volume[static_cast<std::size_t>(found->second)] += is_front ? share : -share;
+    pieces.volume[found->second] += is_front ? share : -share;
   }
 }
 
@@ -222,14 +220,14 @@ std::vector<std::int32_t> owners_of(const Pieces& pieces, std::size_t cells,
                                     const std::map<std::array<std::int32_t, 2>, double>& areas) {
   std::vector<std::int32_t> largest(cells, -1);
   for (std::size_t p = 0; p < pieces.cell.size(); ++p) {
-    std::int32_t& best = largest[static_cast<std::size_t>(pieces.cell[p])];
-    if (best < 0 || pieces.volume[p] > pieces.volume[static_cast<std::size_t>(best)]) {
+    std::int32_t& best = largest[pieces.cell[p]];
+    if (best < 0 || pieces.volume[p] > pieces.volume[best]) {
       best = static_cast<std::int32_t>(p);
     }
   }
   std::vector<std::int32_t> owner(pieces.cell.size(), -1);
   for (std::size_t c = 0; c < cells; ++c) {
-    if (largest[c] >= 0) owner[static_cast<std::size_t>(largest[c])] = static_cast<std::int32_t>(c);
+    if (largest[c] >= 0) owner[largest[c]] = static_cast<std::int32_t>(c);
   }
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
@@ -237,7 +235,7 @@ std::vector<std::int32_t> owners_of(const Pieces& pieces, std::size_t cells,
     std::vector<double> most(owner.size(), 0.0);
     for (const auto& [pair, area] : areas) {
       const auto piece = static_cast<std::size_t>(pair[0]);
-      const std::int32_t neighbour = owner[static_cast<std::size_t>(pair[1])];
+      const std::int32_t neighbour = owner[pair[1]];
       if (owner[piece] >= 0 || neighbour < 0 || !(area > most[piece])) continue;
       most[piece] = area;
       next[piece] = neighbour;
@@ -258,8 +256,8 @@ std::vector<double> CellComplex::volumes() const {
   for (const Face& face : faces_) {
     if (face.edges.empty()) continue;
     const double share = volume_share(points_, face.edges, points_.front());
-    volumes[static_cast<std::size_t>(face.front)] += share;
-    if (face.is_wall()) volumes[static_cast<std::size_t>(face.back)] -= share;
+    volumes[face.front] += share;
+    if (face.is_wall()) volumes[face.back] -= share;
   }
   return volumes;
 }
@@ -283,17 +281,17 @@ CellComplex::Moved CellComplex::join_pieces() {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     Face& face = faces_[f];
     if (face.edges.empty()) continue;
-    face.front = owner[static_cast<std::size_t>(pieces.of_face[f][0])];
+    face.front = owner[pieces.of_face[f][0]];
     if (!face.is_wall()) continue;
-    face.back = owner[static_cast<std::size_t>(pieces.of_face[f][1])];
+    face.back = owner[pieces.of_face[f][1]];
     if (face.front == face.back) face.edges.clear();
   }
   for (Cell& cell : cells_) cell.faces.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];
     if (face.edges.empty()) continue;
-    cells_[static_cast<std::size_t>(face.front)].faces.push_back(f);
-    if (face.is_wall()) cells_[static_cast<std::size_t>(face.back)].faces.push_back(f);
+    cells_[face.front].faces.push_back(f);
+    if (face.is_wall()) cells_[face.back].faces.push_back(f);
   }
   return moved;
 }

@@ -18,7 +18,7 @@ IndexedMesh mesh_of(const WallComplex& complex, const Groups& by_body, std::size
   IndexedMesh mesh;
   std::vector<std::int32_t> used;
   for (const std::int32_t* at = by_body.begin(body); at != by_body.end(body); ++at) {
-    const WallTriangle& t = complex.triangles[index(*at)];
+    const WallTriangle& t = complex.triangles[*at];
     Triangle corners = t.corners;
     if (index(t.inner) != body) std::swap(corners[1], corners[2]);
     mesh.triangles.push_back(corners);
@@ -26,7 +26,7 @@ IndexedMesh mesh_of(const WallComplex& complex, const Groups& by_body, std::size
   }
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::int32_t v : used) mesh.points.push_back(complex.points[index(v)]);
+  for (const std::int32_t v : used) mesh.points.push_back(complex.points[v]);
   for (Triangle& t : mesh.triangles) {
     for (std::int32_t& corner : t) {
       corner = static_cast<std::int32_t>(std::lower_bound(used.begin(), used.end(), corner) -
@@ -42,9 +42,9 @@ std::vector<CommonWall> common_walls(const WallComplex& complex) {
   std::map<std::pair<std::int32_t, std::int32_t>, CommonWall> walls;
   for (const WallTriangle& t : complex.triangles) {
     if (t.outer < 0) continue;
-    const Vector3& a = complex.points[index(t.corners[0])];
-    const Vector3& b = complex.points[index(t.corners[1])];
-    const Vector3& c = complex.points[index(t.corners[2])];
+    const Vector3& a = complex.points[t.corners[0]];
+    const Vector3& b = complex.points[t.corners[1]];
+    const Vector3& c = complex.points[t.corners[2]];
     CommonWall& wall = walls[{t.outer, t.inner}];
     wall.first = t.outer;
     wall.second = t.inner;
@@ -82,7 +82,7 @@ double mean_edge_of(const IndexedMesh& mesh) {
   double sum = 0.0;
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      sum += (mesh.points[index(t[k])] - mesh.points[index(t[following(k)])]).norm();
+      sum += (mesh.points[t[k]] - mesh.points[t[following(k)]]).norm();
     }
   }
   return sum / (3.0 * static_cast<double>(mesh.triangles.size()));

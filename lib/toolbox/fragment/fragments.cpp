@@ -12,7 +12,6 @@
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/fragment/cell_complex.h"
 #include "wscvt/base/error.h"
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -44,9 +43,7 @@ Eigen::VectorXd weight_changes(const CellComplex& complex, const std::vector<Cel
     const double area = 0.5 * doubled_area(complex.points(), face.edges.data(),
                                            face.edges.data() + face.edges.size())
                                   .norm();
-    const double apart = (sites[static_cast<std::size_t>(face.front)].point -
-                          sites[static_cast<std::size_t>(face.back)].point)
-                             .norm();
+    const double apart = (sites[face.front].point - sites[face.back].point).norm();
     const double rate = area / (2.0 * apart);
     rates(face.front, face.front) += rate;
     rates(face.back, face.back) += rate;
@@ -59,7 +56,7 @@ Eigen::VectorXd weight_changes(const CellComplex& complex, const std::vector<Cel
   Eigen::VectorXd missing(count);
   const std::vector<double> volumes = complex.volumes();
   for (Eigen::Index k = 0; k < count; ++k) {
-    missing[k] = wanted[static_cast<std::size_t>(k)] - volumes[static_cast<std::size_t>(k)];
+    missing[k] = wanted[k] - volumes[k];
   }
   return rates.ldlt().solve(missing);
 }
@@ -81,7 +78,7 @@ CellComplex cut_grain(const IndexedMesh& grain, double volume, std::vector<CellS
     const Eigen::VectorXd changes = weight_changes(complex, sites, wanted);
     std::vector<CellSite> next = sites;
     for (std::size_t k = 0; k < next.size(); ++k) {
-      next[k].weight += part * changes[static_cast<Eigen::Index>(k)];
+      next[k].weight += part * changes[k];
     }
     CellComplex tried(grain, next, execution.part(0.3, 0.3));
     const double new_error = volume_error(tried.volumes(), wanted);
@@ -118,10 +115,10 @@ WallComplex walls_of(const CellComplex& cells) {
     for (const Triangle& t : face_triangles(points, face.edges, face.normal, taken)) {
       Triangle corners = t;
       for (std::int32_t& corner : corners) {
-        std::int32_t& number = numbers[index(corner)];
+        std::int32_t& number = numbers[corner];
         if (number < 0) {
           number = static_cast<std::int32_t>(walls.points.size());
-          walls.points.push_back(points[index(corner)]);
+          walls.points.push_back(points[corner]);
         }
         corner = number;
       }
@@ -182,13 +179,13 @@ void measure_fragments(Fragments& fragments, const Execution& execution) {
   for (const WallTriangle& t : fragments.walls.triangles) {
     if (t.outer >= 0) continue;
     const std::vector<Vector3>& points = fragments.walls.points;
-    fragments.list[index(t.inner)].surface_area += triangle_area(
-        points[index(t.corners[0])], points[index(t.corners[1])], points[index(t.corners[2])]);
+    fragments.list[t.inner].surface_area +=
+        triangle_area(points[t.corners[0]], points[t.corners[1]], points[t.corners[2]]);
   }
   fragments.contacts = common_walls(fragments.walls);
   for (const CommonWall& wall : fragments.contacts) {
-    fragments.list[index(wall.first)].wall_area += wall.area;
-    fragments.list[index(wall.second)].wall_area += wall.area;
+    fragments.list[wall.first].wall_area += wall.area;
+    fragments.list[wall.second].wall_area += wall.area;
   }
   execution.parallel_for(fragments.list.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) measure(fragments.list[k]);

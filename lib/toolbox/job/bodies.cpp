@@ -43,15 +43,15 @@ class Extractor {
     IndexedMesh part;
     ++uses_;
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      Triangle t = mesh_.triangles[index(faces[k])];
+      Triangle t = mesh_.triangles[faces[k]];
       if (!turned.empty() && turned[k] != 0) std::swap(t[1], t[2]);
       for (std::int32_t& v : t) {
-        if (user_[index(v)] != uses_) {
-          user_[index(v)] = uses_;
-          number_[index(v)] = static_cast<std::int32_t>(part.points.size());
-          part.points.push_back(mesh_.points[index(v)]);
+        if (user_[v] != uses_) {
+          user_[v] = uses_;
+          number_[v] = static_cast<std::int32_t>(part.points.size());
+          part.points.push_back(mesh_.points[v]);
         }
-        v = number_[index(v)];
+        v = number_[v];
       }
       part.triangles.push_back(t);
     }
@@ -77,7 +77,7 @@ void merge(const std::vector<std::int32_t>& first, Island& island) {
   for (std::size_t f = 0; f < island.mesh.triangles.size(); ++f) {
     Triangle t = island.mesh.triangles[f];
     for (std::int32_t& v : t) {
-      if (!first.empty()) v = first[index(v)];
+      if (!first.empty()) v = first[v];
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     island.mesh.triangles[kept] = t;
@@ -132,7 +132,7 @@ class IslandFinder {
     std::vector<FaceList> lists(sides.names.size());
     for (std::size_t f = 0; f < sides.of_face.size() / 2; ++f) {
       for (const std::int32_t name : {sides.of_face[2 * f], sides.of_face[2 * f + 1]}) {
-        if (name >= 0) lists[index(name)].push_back(static_cast<std::int32_t>(f));
+        if (name >= 0) lists[name].push_back(static_cast<std::int32_t>(f));
       }
     }
     std::size_t closed = 0;
@@ -209,8 +209,8 @@ class IslandFinder {
   static std::vector<FaceList> by_name(const FaceList& faces, const NamedFaces& names) {
     std::vector<FaceList> parts(names.names.size() + 1);  // the last without a name
     for (const std::int32_t f : faces) {
-      const std::int32_t name = names.of_face[index(f)];
-      (name < 0 ? parts.back() : parts[index(name)]).push_back(f);
+      const std::int32_t name = names.of_face[f];
+      (name < 0 ? parts.back() : parts[name]).push_back(f);
     }
     parts.erase(std::remove_if(parts.begin(), parts.end(),
                                [](const FaceList& part) { return part.empty(); }),
@@ -236,7 +236,7 @@ class IslandFinder {
         known = static_cast<std::int32_t>(parts.size());
         parts.emplace_back();
       }
-      parts[index(known)].push_back(faces[k]);
+      parts[known].push_back(faces[k]);
     }
     if (parts.size() * fewest_faces > faces.size()) parts.clear();
     return parts;
@@ -306,7 +306,7 @@ class PartFinder {
         find_components(island.mesh, edge_rings(island.mesh, execution_), execution_);
     std::vector<FaceList> faces(components.list.size());
     for (std::size_t f = 0; f < island.mesh.triangles.size(); ++f) {
-      faces[index(components.of_face[f])].push_back(static_cast<std::int32_t>(f));
+      faces[components.of_face[f]].push_back(static_cast<std::int32_t>(f));
     }
     Extractor extractor(island.mesh);
     for (std::size_t c = 0; c < faces.size(); ++c) {
@@ -323,7 +323,7 @@ class PartFinder {
       part.was_inward = is_closed && component.volume < 0.0;
       std::vector<char> turned;
       for (const std::int32_t f : faces[c]) {
-        turned.push_back(static_cast<char>((components.turned[index(f)] != 0) != part.was_inward));
+        turned.push_back(static_cast<char>((components.turned[f] != 0) != part.was_inward));
       }
       part.mesh = extractor.extract(faces[c], turned);
       part.source = sources_of(faces[c], island.source);
@@ -342,7 +342,7 @@ class PartFinder {
  private:
   static FaceList sources_of(const FaceList& faces, const FaceList& source) {
     FaceList result;
-    for (const std::int32_t f : faces) result.push_back(source[index(f)]);
+    for (const std::int32_t f : faces) result.push_back(source[f]);
     return result;
   }
 
@@ -355,7 +355,7 @@ class PartFinder {
 
   [[noreturn]] static void refuse_unclear(const IndexedMesh& mesh, const MeshCells& cells,
                                           std::int32_t h) {
-    const Vector3& p = mesh.points[index(origin_of(cells.faces, h))];
+    const Vector3& p = mesh.points[origin_of(cells.faces, h)];
     refuse(
         "At (" + format_number(p.x()) + ", " + format_number(p.y()) + ", " + format_number(p.z()) +
         ") more than two faces meet in an edge, and some of them lie on each other. So the bodies "
@@ -416,7 +416,7 @@ class PartFinder {
       faces.push_back(static_cast<std::int32_t>(f));
       turned.push_back(static_cast<char>(looks_in));
       if (looks_in && !has_own) ++inward;
-      part.source.push_back(source[index(has_own ? cells.reverse[f] : cells.source[f])]);
+      part.source.push_back(source[has_own ? cells.reverse[f] : cells.source[f]]);
     }
     part.was_inward = inward == faces.size();
     part.mesh = extractor.extract(faces, turned);
@@ -434,8 +434,7 @@ class PartFinder {
     for (std::size_t f = 0; f < cells.faces.size(); ++f) {
       const Triangle& t = cells.faces[f];
       const double own =
-          triangle_area(piece.mesh.points[index(t[0])], piece.mesh.points[index(t[1])],
-                        piece.mesh.points[index(t[2])]);
+          triangle_area(piece.mesh.points[t[0]], piece.mesh.points[t[1]], piece.mesh.points[t[2]]);
       area += own;
       if (cells.before(f) != cells.behind(f)) continue;
       rest += own;
@@ -450,7 +449,7 @@ class PartFinder {
     Part part;
     part.mesh = extractor.extract(faces);
     for (const std::int32_t f : faces) {
-      part.source.push_back(piece.source[index(cells.source[index(f)])]);
+      part.source.push_back(piece.source[cells.source[f]]);
     }
     const std::vector<std::int32_t> rings = edge_rings(part.mesh, execution_);
     for (std::size_t h = 0; h < rings.size(); ++h) {
@@ -472,7 +471,7 @@ bool holds(const Box& outer, const Box& inner) {
 std::uint64_t place_of(const IndexedMesh& mesh, const Triangle& t) {
   std::array<std::uint64_t, 3> corners{};
   for (std::size_t k = 0; k < 3; ++k) {
-    for (const double coordinate : mesh.points[index(t[k])]) {
+    for (const double coordinate : mesh.points[t[k]]) {
       const double value = coordinate + 0.0;  // -0 is 0
       std::uint64_t bits = 0;
       static_assert(sizeof bits == sizeof value);
@@ -542,10 +541,9 @@ void append_centres(const Part& inner, const std::unordered_set<std::uint64_t>& 
   }
   const std::size_t asked = std::min(own.size(), most_asked);
   for (std::size_t k = 0; k < asked; ++k) {
-    const Triangle& t = inner.mesh.triangles[index(own[k * own.size() / asked])];
-    points.emplace_back((inner.mesh.points[index(t[0])] + inner.mesh.points[index(t[1])] +
-                         inner.mesh.points[index(t[2])]) /
-                        3.0);
+    const Triangle& t = inner.mesh.triangles[own[k * own.size() / asked]];
+    points.emplace_back(
+        (inner.mesh.points[t[0]] + inner.mesh.points[t[1]] + inner.mesh.points[t[2]]) / 3.0);
   }
 }
 
@@ -623,9 +621,9 @@ void append_depths(const IndexedMesh& mesh, std::vector<Vector3>& points) {
   const std::size_t asked = std::min(triangles.size(), most_asked);
   for (std::size_t k = 0; k < asked; ++k) {
     const Triangle& t = triangles[k * triangles.size() / asked];
-    const Vector3& a = mesh.points[index(t[0])];
-    const Vector3& b = mesh.points[index(t[1])];
-    const Vector3& c = mesh.points[index(t[2])];
+    const Vector3& a = mesh.points[t[0]];
+    const Vector3& b = mesh.points[t[1]];
+    const Vector3& c = mesh.points[t[2]];
     const Vector3 normal = doubled_area_normal(a, b, c);
     const double doubled_area = normal.norm();
     if (!(doubled_area > 0.0)) continue;
@@ -682,9 +680,9 @@ void add_pore(const IndexedMesh& pore, double volume, MeshBody& body) {
 
 /// Returns the name that all faces of a list have, else -1.
 std::int32_t only_name(const NamedFaces& level, const FaceList& faces) {
-  const std::int32_t name = level.of_face[index(faces.front())];
+  const std::int32_t name = level.of_face[faces.front()];
   const bool has_one = name >= 0 && std::all_of(faces.begin(), faces.end(), [&](std::int32_t f) {
-                         return level.of_face[index(f)] == name;
+                         return level.of_face[f] == name;
                        });
   return has_one ? name : -1;
 }
@@ -706,14 +704,14 @@ void name_bodies(const std::vector<NamedFaces>& names, const std::vector<FaceLis
     std::vector<std::size_t> users(level.names.size(), 0);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       own[k] = only_name(level, sources[k]);
-      if (own[k] >= 0) ++users[index(own[k])];
+      if (own[k] >= 0) ++users[own[k]];
     }
     std::map<std::string, std::size_t> namesakes;
     for (const MeshBody& body : bodies) ++namesakes[body.name];
     for (std::size_t k = 0; k < bodies.size(); ++k) {
       if (own[k] < 0) continue;
-      const bool is_better = users[index(own[k])] == 1 && namesakes[bodies[k].name] > 1;
-      if (bodies[k].name.empty() || is_better) bodies[k].name = level.names[index(own[k])];
+      const bool is_better = users[own[k]] == 1 && namesakes[bodies[k].name] > 1;
+      if (bodies[k].name.empty() || is_better) bodies[k].name = level.names[own[k]];
     }
   }
 }
@@ -764,7 +762,7 @@ std::vector<MeshBody> assemble(PartFinder& found, const std::vector<NamedFaces>&
     body.volume = parts[p].volume;
     body.boundary_edges = parts[p].boundary_edges;
     body.mesh = parts[p].mesh;
-    if (parts[p].side_name >= 0) body.name = sides.names[index(parts[p].side_name)];
+    if (parts[p].side_name >= 0) body.name = sides.names[parts[p].side_name];
     bodies.push_back(std::move(body));
     sources.push_back(parts[p].source);
   }
@@ -838,7 +836,7 @@ void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execut
   std::vector<char> kept;
   for (const Triangle& t : mesh.triangles) {
     kept.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t v) {
-      return v >= 0 && index(v) < mesh.points.size() && mesh.points[index(v)].allFinite();
+      return v >= 0 && index(v) < mesh.points.size() && mesh.points[v].allFinite();
     }));
   }
   keep_usable_faces(mesh, execution);

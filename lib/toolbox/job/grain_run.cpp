@@ -9,9 +9,7 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <system_error>
 #include <thread>
-#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/system_files.h"

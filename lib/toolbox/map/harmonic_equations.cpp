@@ -220,7 +220,7 @@ Solution solve(const HarmonicEquations& equations, const Vector& right, double t
 Vector probe(Eigen::Index size) {
   const std::vector<Vector3> random = random_directions(static_cast<int>(size), 1);
   Vector result(size);
-  for (Eigen::Index i = 0; i < size; ++i) result[i] = random[static_cast<std::size_t>(i)].x();
+  for (Eigen::Index i = 0; i < size; ++i) result[i] = random[i].x();
   return result;
 }
 

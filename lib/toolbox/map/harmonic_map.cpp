@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "toolbox/map/harmonic_equations.h"
@@ -73,7 +72,7 @@ Quadrature quadrature_over(const MappedSurface& surface, int degree) {
       const Vector3 x = surface.position(place);
       result.directions.push_back(surface.direction(place));
       for (std::size_t k = 0; k < 3; ++k) {
-        result.coordinates[k].push_back(x[static_cast<Eigen::Index>(k)]);
+        result.coordinates[k].push_back(x[k]);
       }
       result.weights.push_back(area / (static_cast<double>(count) * count));
     };

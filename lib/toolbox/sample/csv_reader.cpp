@@ -6,7 +6,6 @@
 #include <istream>
 #include <limits>
 #include <system_error>
-#include <utility>
 
 #include "wscvt/mesh_files/text_fields.h"
 

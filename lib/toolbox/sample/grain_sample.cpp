@@ -12,7 +12,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
-#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/voxel_resolution.h"
 
@@ -157,7 +156,7 @@ void add_resolution(const GrainTable& table, const std::vector<Eigen::Index>& ke
   if (!across) return;
   const auto rows = static_cast<Eigen::Index>(kept.size());
   const auto read = [&](std::size_t column, Eigen::Index row) {
-    return table.values(kept[static_cast<std::size_t>(row)], static_cast<Eigen::Index>(column));
+    return table.values(kept[row], static_cast<Eigen::Index>(column));
   };
   sample.voxels_across.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row) sample.voxels_across[row] = read(*across, row);
@@ -285,9 +284,9 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   sample.sizes.resize(rows);
   sample.masses.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row) {
-    const Eigen::Index k = kept[static_cast<std::size_t>(row)];
-    sample.grains.push_back(table.grains[static_cast<std::size_t>(k)]);
-    if (!table.files.empty()) sample.files.push_back(table.files[static_cast<std::size_t>(k)]);
+    const Eigen::Index k = kept[row];
+    sample.grains.push_back(table.grains[k]);
+    if (!table.files.empty()) sample.files.push_back(table.files[k]);
     for (std::size_t column = 0; column < places.size(); ++column) {
       sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
     }

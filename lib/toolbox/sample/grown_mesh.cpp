@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/sample/grown_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"

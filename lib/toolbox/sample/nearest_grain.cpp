@@ -28,7 +28,7 @@ GrainSearch::GrainSearch(const std::vector<SampleGrain>& sample) {
   if (sample.empty()) refuse("The sample has no grains to compare with. Give at least one.");
   const std::size_t count = sample.front().radial.size();
   for (int wanted = 0; wanted < 8; ++wanted) {
-    classes_[static_cast<std::size_t>(wanted)] = static_cast<Eigen::Index>(places_.size());
+    classes_[wanted] = static_cast<Eigen::Index>(places_.size());
     for (int l = 0; harmonic_count(l) <= count; ++l) {
       for (int m = -l; m <= l; ++m) {
         if (mirror_class(l, m) == wanted) {
@@ -57,7 +57,7 @@ Eigen::VectorXd GrainSearch::in_classes(const std::vector<double>& radial) const
   }
   Eigen::VectorXd sorted(places_.size());
   for (Eigen::Index k = 0; k < sorted.size(); ++k) {
-    sorted[k] = radial[static_cast<std::size_t>(places_[static_cast<std::size_t>(k)])];
+    sorted[k] = radial[places_[k]];
   }
   return sorted;
 }
@@ -88,7 +88,7 @@ NearestGrain GrainSearch::nearest(const std::vector<double>& radial, std::size_t
   Eigen::VectorXd bounds =
       (amplitudes_.colwise() - amplitudes_of(radial)).colwise().squaredNorm().transpose();
   if (left_out < static_cast<std::size_t>(bounds.size())) {
-    bounds[static_cast<Eigen::Index>(left_out)] = std::numeric_limits<double>::infinity();
+    bounds[left_out] = std::numeric_limits<double>::infinity();
   }
   Eigen::Index likely = 0;
   if (std::isfinite(bounds.minCoeff(&likely))) look_at(likely);
@@ -110,7 +110,7 @@ double GrainSearch::usual_distance(const Execution& execution) const {
       const Eigen::VectorXd sorted = sorted_.col(static_cast<Eigen::Index>(grain));
       std::vector<double> radial(places_.size());
       for (std::size_t k = 0; k < radial.size(); ++k) {
-        radial[static_cast<std::size_t>(places_[k])] = sorted[static_cast<Eigen::Index>(k)];
+        radial[places_[k]] = sorted[k];
       }
       distances[i] = nearest(radial, grain).distance;
     }

@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <limits>
 
 namespace wscvt {
 
@@ -20,16 +19,16 @@ Eigen::VectorXd free_minimum(const Eigen::MatrixXd& g, const Eigen::VectorXd& b,
   Eigen::MatrixXd part(count, count);
   Eigen::VectorXd right(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index row = places[static_cast<std::size_t>(i)];
+    const Eigen::Index row = places[i];
     right[i] = b[row];
     for (Eigen::Index k = 0; k < count; ++k) {
-      part(i, k) = g(row, places[static_cast<std::size_t>(k)]);
+      part(i, k) = g(row, places[k]);
     }
     part(i, i) *= 1.0 + 1e-12;
   }
   const Eigen::VectorXd solved = part.ldlt().solve(right);
   Eigen::VectorXd all = Eigen::VectorXd::Zero(g.rows());
-  for (Eigen::Index i = 0; i < count; ++i) all[places[static_cast<std::size_t>(i)]] = solved[i];
+  for (Eigen::Index i = 0; i < count; ++i) all[places[i]] = solved[i];
   return all;
 }
 
@@ -40,15 +39,15 @@ Eigen::VectorXd descend(const Eigen::MatrixXd& g, const Eigen::VectorXd& b, Eige
     const Eigen::VectorXd wanted = free_minimum(g, b, is_free);
     double step = 1.0;
     for (Eigen::Index k = 0; k < w.size(); ++k) {
-      if (is_free[static_cast<std::size_t>(k)] && wanted[k] <= 0.0) {
+      if (is_free[k] && wanted[k] <= 0.0) {
         step = std::min(step, w[k] / std::max(w[k] - wanted[k], 1e-300));
       }
     }
     w += step * (wanted - w);
     if (step >= 1.0) return w.cwiseMax(0.0);
     for (Eigen::Index k = 0; k < w.size(); ++k) {
-      if (is_free[static_cast<std::size_t>(k)] && wanted[k] <= 0.0 && w[k] <= 1e-14) {
-        is_free[static_cast<std::size_t>(k)] = false;
+      if (is_free[k] && wanted[k] <= 0.0 && w[k] <= 1e-14) {
+        is_free[k] = false;
         w[k] = 0.0;
       }
     }
@@ -69,8 +68,8 @@ Eigen::VectorXd nonnegative_minimum(const Eigen::MatrixXd& g, const Eigen::Vecto
     w = free_minimum(g, b, is_free);
     bool all_positive = true;
     for (Eigen::Index k = 0; k < count; ++k) {
-      if (is_free[static_cast<std::size_t>(k)] && w[k] <= 0.0) {
-        is_free[static_cast<std::size_t>(k)] = false;
+      if (is_free[k] && w[k] <= 0.0) {
+        is_free[k] = false;
         all_positive = false;
       }
     }
@@ -83,13 +82,13 @@ Eigen::VectorXd nonnegative_minimum(const Eigen::MatrixXd& g, const Eigen::Vecto
     Eigen::Index steepest = -1;
     double most = tolerance;
     for (Eigen::Index k = 0; k < count; ++k) {
-      if (!is_free[static_cast<std::size_t>(k)] && slope[k] > most) {
+      if (!is_free[k] && slope[k] > most) {
         most = slope[k];
         steepest = k;
       }
     }
     if (steepest < 0) break;
-    is_free[static_cast<std::size_t>(steepest)] = true;
+    is_free[steepest] = true;
     w = descend(g, b, w, is_free);
   }
   return w;

@@ -2,7 +2,6 @@
 #include "toolbox/sample/offset_surface.h"
 
 #include <cmath>
-#include <optional>
 
 #include "toolbox/map/mapped_surface.h"
 #include "toolbox/map/sphere_map.h"
@@ -32,7 +31,7 @@ OffsetSeries coordinate_series(const HarmonicGrid& grid, const std::vector<Vecto
   std::vector<double> values(points.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < points.size(); ++k) {
-      values[k] = scale * points[k][static_cast<Eigen::Index>(axis)];
+      values[k] = scale * points[k][axis];
     }
     series[axis] = grid.coefficients(values);
   }
@@ -68,8 +67,7 @@ std::vector<Vector3> directions_of(const OffsetSeries& series, const std::vector
 bool is_one_to_one(const OffsetSeries& series, const IndexedMesh& sphere) {
   const std::vector<Vector3> to = directions_of(series, sphere.points);
   const auto volume = [](const std::vector<Vector3>& p, const Triangle& t) {
-    return p[static_cast<std::size_t>(t[0])].dot(
-        p[static_cast<std::size_t>(t[1])].cross(p[static_cast<std::size_t>(t[2])]));
+    return p[t[0]].dot(p[t[1]].cross(p[t[2]]));
   };
   for (const Triangle& t : sphere.triangles) {
     if (!(volume(to, t) > smallest_part * volume(sphere.points, t))) return false;
@@ -107,7 +105,7 @@ RadiiAndOffsets split_points(const std::vector<Vector3>& points,
     const Vector3 offset = points[k] - radius * directions[k];
     parts.radii.push_back(radius);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      parts.offsets[axis].push_back(offset[static_cast<Eigen::Index>(axis)]);
+      parts.offsets[axis].push_back(offset[axis]);
     }
   }
   return parts;
@@ -118,8 +116,7 @@ std::vector<Vector3> offset_values(const OffsetSeries& offset,
   std::vector<Vector3> offsets(directions.size());
   std::vector<double> values(directions.size());
   for (int axis = 0; axis < 3; ++axis) {
-    HarmonicSeries(offset[static_cast<std::size_t>(axis)])
-        .sum(directions.data(), directions.size(), values.data());
+    HarmonicSeries(offset[axis]).sum(directions.data(), directions.size(), values.data());
     for (std::size_t k = 0; k < offsets.size(); ++k) offsets[k][axis] = values[k];
   }
   return offsets;
@@ -152,7 +149,7 @@ OffsetSeries mirrored_offset(const OffsetSeries& offset, const Vector3& signs) {
   if (!has_offset(offset)) return image;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     image[axis] = mirrored(offset[axis], signs);
-    for (double& coefficient : image[axis]) coefficient *= signs[static_cast<Eigen::Index>(axis)];
+    for (double& coefficient : image[axis]) coefficient *= signs[axis];
   }
   return image;
 }

@@ -70,9 +70,7 @@ class StepFunctions {
   Index descriptors() const { return ranks_.cols(); }
   std::size_t grains() const { return static_cast<std::size_t>(ranks_.rows()); }
   const std::vector<std::vector<double>>& widths() const { return widths_; }
-  const std::vector<double>& target(int which, Index j) const {
-    return targets_[which][static_cast<std::size_t>(j)];
-  }
+  const std::vector<double>& target(int which, Index j) const { return targets_[which][j]; }
   int rank(std::size_t grain, Index j) const { return ranks_(at(grain), j); }
 
  private:
@@ -88,7 +86,7 @@ class Fit {
   Fit(const StepFunctions& steps, int which, const std::vector<std::vector<double>>& widths)
       : steps_(steps) {
     for (Index j = 0; j < steps.descriptors(); ++j) {
-      const std::vector<double>& width = widths[static_cast<std::size_t>(j)];
+      const std::vector<double>& width = widths[j];
       std::vector<double> tail(width.size() + 1, 0.0), product(width.size() + 1, 0.0);
       for (std::size_t q = width.size(); q > 0; --q) {
         tail[q - 1] = tail[q] + width[q - 1];
@@ -102,15 +100,14 @@ class Fit {
   double entry(std::size_t a, std::size_t b) const {
     double sum = sum_weight;
     for (Index j = 0; j < steps_.descriptors(); ++j) {
-      sum += tails_[static_cast<std::size_t>(j)]
-                   [static_cast<std::size_t>(std::max(steps_.rank(a, j), steps_.rank(b, j)))];
+      sum += tails_[j][std::max(steps_.rank(a, j), steps_.rank(b, j))];
     }
     return sum;
   }
   double right_side(std::size_t a) const {
     double sum = sum_weight;
     for (Index j = 0; j < steps_.descriptors(); ++j) {
-      sum += products_[static_cast<std::size_t>(j)][static_cast<std::size_t>(steps_.rank(a, j))];
+      sum += products_[j][steps_.rank(a, j)];
     }
     return sum;
   }
@@ -137,7 +134,7 @@ void solve(const Fit (&fits)[2], const Eigen::MatrixXd& matrix, Choice& choice) 
     }
     const Eigen::VectorXd& before = choice.weights[which];
     std::vector<bool> start(choice.grains.size(), true);
-    for (Index k = 0; k < before.size(); ++k) start[static_cast<std::size_t>(k)] = before[k] > 0.0;
+    for (Index k = 0; k < before.size(); ++k) start[k] = before[k] > 0.0;
     Eigen::VectorXd w = nonnegative_minimum(matrix, right, start);
     choice.cost += w.dot(matrix * w) - 2.0 * right.dot(w);
     choice.weights[which] = std::move(w);
@@ -242,9 +239,7 @@ std::vector<double> distances(const Eigen::MatrixXd& standard,
   std::vector<double> found;
   for (Index j = 0; j < standard.cols(); ++j) {
     for (std::size_t k = 0; k < grains.size(); ++k) chosen[at(k)] = standard(at(grains[k]), j);
-    found.push_back(
-        distance_between(Distribution(chosen, chosen_weights), sample[static_cast<std::size_t>(j)])
-            .wasserstein);
+    found.push_back(distance_between(Distribution(chosen, chosen_weights), sample[j]).wasserstein);
   }
   return found;
 }
@@ -271,10 +266,10 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
   for (int round = 0; round < absolute_rounds; ++round) {
     std::vector<std::vector<double>> widths = steps.widths();
     for (Index j = 0; j < steps.descriptors(); ++j) {
-      std::vector<double>& width = widths[static_cast<std::size_t>(j)];
+      std::vector<double>& width = widths[j];
       std::vector<double> function(width.size(), 0.0);
       for (std::size_t k = 0; k < choice.grains.size(); ++k) {
-        function[static_cast<std::size_t>(steps.rank(choice.grains[k], j))] += now[k];
+        function[steps.rank(choice.grains[k], j)] += now[k];
       }
       std::partial_sum(function.begin(), function.end(), function.begin());
       for (std::size_t q = 0; q < width.size(); ++q) {

@@ -12,7 +12,6 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #endif
 
 namespace wscvt {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -214,7 +213,7 @@ std::string tetrahedra_line(const TetrahedralMesh& mesh) {
   if (!mesh.names.empty()) {
     const std::vector<double>& angles = mesh.body_dihedrals;
     const auto smallest = std::min_element(angles.begin(), angles.end()) - angles.begin();
-    flattest = " (" + mesh.kind + " " + mesh.names[static_cast<std::size_t>(smallest)] + ")";
+    flattest = " (" + mesh.kind + " " + mesh.names[smallest] + ")";
     const auto count = std::count_if(angles.begin(), angles.end(),
                                      [](double angle) { return angle < least_dihedral; });
     below = ", below " + format_number(least_dihedral, 3) + " in " + std::to_string(count) +
