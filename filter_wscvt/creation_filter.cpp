@@ -47,8 +47,9 @@ ParameterList creation_parameters() {
       exponent("PolarExponent", polar_exponent_option, "Polar exponent", "seen from the side"),
       exponent("AzimuthalExponent", azimuthal_exponent_option, "Azimuthal exponent",
                "seen along z"),
-      input_file_parameter(
-          "CoefficientsFile", {".dat", ".sh", ".json"}, "Coefficients file",
+      file_parameter(
+          "CoefficientsFile", ParameterKind::InputFile, {".dat", ".sh", ".json"},
+          "Coefficients file",
           "For harmonics: .dat (text of the NIST/VCCTL particle shape sets), .sh (SHTOOLS, 4pi) or "
           ".json (from the remesher). The radius must be positive everywhere."),
       option_parameter("CoefficientDegree", -1, coefficient_degree_option,
@@ -56,7 +57,7 @@ ParameterList creation_parameters() {
                        "For a .dat or .sh file, as in the tables of the particle shape sets. -1 "
                        "keeps all degrees."),
       node_count_parameter(),
-      method_parameter(Method::OnScan),
+      method_parameter(),
       weighting_parameter(),
       curvature_alpha_parameter(),
       placement_parameter(),

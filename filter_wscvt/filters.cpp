@@ -173,7 +173,7 @@ auto as_layer(const Layers& layers) {
 }
 
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
-                           Layers& layers, const ProgressCallback& progress) {
+                           Layers& layers, const Execution& execution) {
   const Stopwatch stopwatch;
   const Layer current = current_layer(layers);
   // A remesh of a remesh would add errors, so its scan is remeshed again.
@@ -185,7 +185,6 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
   settings.options.measures.repaired_scan = !report.empty() && shows_scan(report);
   settings.options.measures.written = as_layer(layers);
   const Eigen::Matrix4d transform = layers.transform(scan.number);
-  const Execution execution(0, progress);
   IndexedMesh mesh = layers.mesh(scan.number);
   const MeshAttributes attributes =
       settings.keep_attributes ? layers.attributes(scan.number) : MeshAttributes();
@@ -240,11 +239,11 @@ std::string folder_at_hand(const Layers& layers) {
   return folder_of(source_of(layers, current->number).value_or(*current));
 }
 
-FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
-                           const Execution& execution) {
+FilterOutcome create_layer(const ParameterList& parameters, const ParameterValues& values,
+                           Layers& layers, const Execution& execution) {
   const Stopwatch stopwatch;
-  CreationSettings settings = read_creation_settings(
-      with_full_names(creation_parameters(), values, folder_at_hand(layers)));
+  CreationSettings settings =
+      read_creation_settings(with_full_names(parameters, values, folder_at_hand(layers)));
   settings.options.measures.written = as_layer(layers);
   const RemeshResult result = remesh(settings.surface, settings.options, execution);
   const std::string name = surface_name(settings.surface);
@@ -260,11 +259,11 @@ FilterOutcome create_layer(const ParameterValues& values, Layers& layers,
   return outcome;
 }
 
-FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
-                             const Execution& execution) {
+FilterOutcome describe_layer(const ParameterList& parameters, const ParameterValues& values,
+                             Layers& layers, const Execution& execution) {
   const Stopwatch stopwatch;
-  const DescriptorSettings settings = read_descriptor_settings(
-      with_full_names(descriptor_parameters(), values, folder_at_hand(layers)));
+  const DescriptorSettings settings =
+      read_descriptor_settings(with_full_names(parameters, values, folder_at_hand(layers)));
   const Layer current = current_layer(layers);
   std::optional<NamedMesh> reference;
   if (!settings.reference_layer.empty()) {
@@ -285,18 +284,16 @@ FilterOutcome describe_layer(const ParameterValues& values, Layers& layers,
 }
 
 FilterOutcome run_on(FilterId filter, const ParameterList& parameters,
-                     const ParameterValues& values, Layers& layers,
-                     const ProgressCallback& progress) {
-  const Execution execution(0, progress);
+                     const ParameterValues& values, Layers& layers, const Execution& execution) {
   switch (filter) {
     case FilterId::Create:
-      return create_layer(values, layers, execution);
+      return create_layer(parameters, values, layers, execution);
     case FilterId::Describe:
-      return describe_layer(values, layers, execution);
+      return describe_layer(parameters, values, layers, execution);
     case FilterId::Remesh:
       break;
   }
-  return remesh_layer(parameters, values, layers, progress);
+  return remesh_layer(parameters, values, layers, execution);
 }
 
 }  // namespace
@@ -304,11 +301,10 @@ FilterOutcome run_on(FilterId filter, const ParameterList& parameters,
 std::vector<Filter> all_filters() {
   return {
       {FilterId::Remesh, remesh_name(), "meshing_weighted_spherical_voronoi", remesh_help(),
-       remesh_parameters(), FilterMenu::Remeshing, false, true},
-      {FilterId::Create, creation_name(), "create_grain", creation_help(), creation_parameters(),
-       FilterMenu::Creation, false, true},
+       remesh_parameters()},
+      {FilterId::Create, creation_name(), "create_grain", creation_help(), creation_parameters()},
       {FilterId::Describe, descriptor_name(), "get_grain_shape_descriptors", descriptor_help(),
-       descriptor_parameters(), FilterMenu::Measure, true, false},
+       descriptor_parameters()},
   };
 }
 
@@ -323,7 +319,7 @@ FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers&
                          const ProgressCallback& progress) {
   const RunOnDocument run(layers);
   const ParameterList parameters = filter_with_number(static_cast<int>(filter)).parameters;
-  FilterOutcome outcome = run_on(filter, parameters, values, layers, progress);
+  FilterOutcome outcome = run_on(filter, parameters, values, layers, Execution(0, progress));
   if (const std::optional<std::string> remark = remark_on_missing(parameters, values)) {
     outcome.log.push_back({*remark, true});
   }

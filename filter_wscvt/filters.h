@@ -18,9 +18,6 @@ namespace wscvt::filter {
 /// In the order of the host's action numbers.
 enum class FilterId { Remesh, Create, Describe };
 
-/// The host's category for a filter.
-enum class FilterMenu { Remeshing, Creation, Measure };
-
 /// Properties of a filter for a host.
 struct Filter {
   FilterId id = FilterId::Remesh;
@@ -28,9 +25,6 @@ struct Filter {
   std::string python_name;  ///< in PyMeshLab: never changes
   std::string help;         ///< HTML
   ParameterList parameters;
-  FilterMenu menu = FilterMenu::Remeshing;
-  bool needs_faces = false;  ///< of the current layer
-  bool makes_layers = true;
 };
 
 /// All filters.

@@ -30,15 +30,14 @@ inline GLLogStream::Levels log_level(const LogLine& line) {
 /// Returns the filter's requirements for the current layer, as the host's mask.
 template <class Model>
 int needed_parts(const Filter& filter) {
-  if (!filter.needs_faces) return Model::MM_NONE;
-  return Model::MM_FACENUMBER;
+  return filter.id == FilterId::Describe ? Model::MM_FACENUMBER : Model::MM_NONE;
 }
 
 /// Returns the filter's changes, as the host's mask: mesh, vertex quality and vertex colour, and
 /// face quality and face colour if the scan has them.
 template <class Model>
 int changed_parts(const Filter& filter) {
-  if (!filter.makes_layers) return Model::MM_NONE;
+  if (filter.id == FilterId::Describe) return Model::MM_NONE;
   return Model::MM_VERTCOORD | Model::MM_VERTNORMAL | Model::MM_VERTNUMBER | Model::MM_VERTQUALITY |
          Model::MM_VERTCOLOR | Model::MM_FACEVERT | Model::MM_FACENORMAL | Model::MM_FACENUMBER |
          Model::MM_FACECOLOR | Model::MM_FACEQUALITY;

@@ -137,8 +137,8 @@ FilterParameter node_count_parameter() {
   return parameter;
 }
 
-FilterParameter method_parameter(Method default_method) {
-  return table_parameter("Method", default_method, "Method",
+FilterParameter method_parameter() {
+  return table_parameter("Method", Method::OnScan, "Method",
                          "Where the Voronoi cells are, and which surface the nodes follow.");
 }
 

@@ -12,7 +12,7 @@ namespace wscvt::filter {
 // Parameters of the filters that make a mesh of N nodes.
 
 FilterParameter node_count_parameter();
-FilterParameter method_parameter(Method default_method);
+FilterParameter method_parameter();
 FilterParameter weighting_parameter();
 FilterParameter curvature_alpha_parameter();
 FilterParameter placement_parameter();

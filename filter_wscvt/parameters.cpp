@@ -12,19 +12,6 @@ namespace wscvt::filter {
 
 namespace {
 
-FilterParameter number(std::string name, ParameterKind kind, double default_value, double minimum,
-                       double maximum, std::string label, std::string tooltip) {
-  FilterParameter parameter;
-  parameter.name = std::move(name);
-  parameter.kind = kind;
-  parameter.default_value = default_value;
-  parameter.minimum = minimum;
-  parameter.maximum = maximum;
-  parameter.label = std::move(label);
-  parameter.tooltip = std::move(tooltip);
-  return parameter;
-}
-
 double checked_value(const FilterParameter& parameter, double value) {
   const bool whole = parameter.kind == ParameterKind::Real || value == std::floor(value);
   if (value >= parameter.minimum && value <= parameter.maximum && whole) return value;
@@ -40,14 +27,6 @@ double checked_value(const FilterParameter& parameter, double value) {
     sentence += typed_text(parameter.minimum) + " to " + typed_text(parameter.maximum);
   }
   refuse(sentence + ". Nothing was changed.");
-}
-
-FilterParameter file(std::string name, ParameterKind kind, std::vector<std::string> extensions,
-                     std::string label, std::string tooltip) {
-  FilterParameter parameter =
-      number(std::move(name), kind, 0, 0, 0, std::move(label), std::move(tooltip));
-  parameter.extensions = std::move(extensions);
-  return parameter;
 }
 
 ParameterValue default_of(const FilterParameter& parameter) {
@@ -73,25 +52,17 @@ bool holds_file(ParameterKind kind) {
   return kind == ParameterKind::InputFile || kind == ParameterKind::OutputFile;
 }
 
-FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
-                                  std::string label, std::string tooltip) {
-  return number(std::move(name), ParameterKind::Integer, default_value, minimum, maximum,
-                std::move(label), std::move(tooltip));
-}
-
-FilterParameter real_parameter(std::string name, double default_value, double minimum,
-                               double maximum, std::string label, std::string tooltip) {
-  return number(std::move(name), ParameterKind::Real, default_value, minimum, maximum,
-                std::move(label), std::move(tooltip));
-}
-
-FilterParameter choice_parameter(std::string name, int default_index,
-                                 std::vector<std::string> choices, std::string label,
+FilterParameter number_parameter(std::string name, ParameterKind kind, double default_value,
+                                 double minimum, double maximum, std::string label,
                                  std::string tooltip) {
-  FilterParameter parameter =
-      number(std::move(name), ParameterKind::Choice, default_index, 0,
-             static_cast<double>(choices.size()) - 1, std::move(label), std::move(tooltip));
-  parameter.choices = std::move(choices);
+  FilterParameter parameter;
+  parameter.name = std::move(name);
+  parameter.kind = kind;
+  parameter.default_value = default_value;
+  parameter.minimum = minimum;
+  parameter.maximum = maximum;
+  parameter.label = std::move(label);
+  parameter.tooltip = std::move(tooltip);
   return parameter;
 }
 
@@ -111,45 +82,28 @@ std::string brief_tooltip(const FilterParameter& parameter, std::size_t most_cha
   return text.substr(0, length);
 }
 
-FilterParameter option_parameter(std::string name, int default_value,
-                                 const NumberOption<int>& option, std::string label,
-                                 const std::string& tooltip) {
-  return integer_parameter(std::move(name), default_value, option.minimum, option.maximum,
-                           std::move(label), tooltip + " " + capitalised(range_text(option)) + ".");
-}
-
-FilterParameter option_parameter(std::string name, double default_value,
-                                 const NumberOption<double>& option, std::string label,
-                                 const std::string& tooltip) {
-  return real_parameter(std::move(name), default_value, option.minimum, option.maximum,
-                        std::move(label), tooltip + " " + capitalised(range_text(option)) + ".");
-}
-
 std::string short_label(std::string_view label) {
   return capitalised(label.substr(0, label.find(" (")));
 }
 
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,
                                std::string tooltip) {
-  return number(std::move(name), ParameterKind::Flag, default_value ? 1 : 0, 0, 1, std::move(label),
-                std::move(tooltip));
+  return number_parameter(std::move(name), ParameterKind::Flag, default_value ? 1 : 0, 0, 1,
+                          std::move(label), std::move(tooltip));
 }
 
 FilterParameter text_parameter(std::string name, std::string label, std::string tooltip) {
-  return number(std::move(name), ParameterKind::Text, 0, 0, 0, std::move(label),
-                std::move(tooltip));
+  return number_parameter(std::move(name), ParameterKind::Text, 0, 0, 0, std::move(label),
+                          std::move(tooltip));
 }
 
-FilterParameter input_file_parameter(std::string name, std::vector<std::string> extensions,
-                                     std::string label, std::string tooltip) {
-  return file(std::move(name), ParameterKind::InputFile, std::move(extensions), std::move(label),
-              std::move(tooltip));
-}
-
-FilterParameter output_file_parameter(std::string name, std::vector<std::string> extensions,
-                                      std::string label, std::string tooltip) {
-  return file(std::move(name), ParameterKind::OutputFile, std::move(extensions), std::move(label),
-              std::move(tooltip));
+FilterParameter file_parameter(std::string name, ParameterKind kind,
+                               std::vector<std::string> extensions, std::string label,
+                               std::string tooltip) {
+  FilterParameter parameter =
+      number_parameter(std::move(name), kind, 0, 0, 0, std::move(label), std::move(tooltip));
+  parameter.extensions = std::move(extensions);
+  return parameter;
 }
 
 CheckedValues::CheckedValues(const ParameterList& parameters, const ParameterValues& values) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -51,12 +53,8 @@ using ParameterList = std::vector<FilterParameter>;
 /// Returns a label without the brackets at its end: "WSCVT-D", for short names.
 std::string short_label(std::string_view label);
 
-FilterParameter integer_parameter(std::string name, int default_value, int minimum, int maximum,
-                                  std::string label, std::string tooltip);
-FilterParameter real_parameter(std::string name, double default_value, double minimum,
-                               double maximum, std::string label, std::string tooltip);
-FilterParameter choice_parameter(std::string name, int default_index,
-                                 std::vector<std::string> choices, std::string label,
+FilterParameter number_parameter(std::string name, ParameterKind kind, double default_value,
+                                 double minimum, double maximum, std::string label,
                                  std::string tooltip);
 
 /// Returns the full help text of a parameter.
@@ -67,29 +65,26 @@ std::string whole_tooltip(const FilterParameter& parameter);
 std::string brief_tooltip(const FilterParameter& parameter, std::size_t most_characters);
 
 /// Makes a parameter for an option of the library. The tooltip includes its range.
-FilterParameter option_parameter(std::string name, int default_value,
-                                 const NumberOption<int>& option, std::string label,
-                                 const std::string& tooltip);
-FilterParameter option_parameter(std::string name, double default_value,
-                                 const NumberOption<double>& option, std::string label,
-                                 const std::string& tooltip);
-
-/// The labels of an enumeration as a dialog shows them, in the order of its values.
-template <class Enumeration>
-std::vector<std::string> choices_of() {
-  std::vector<std::string> choices;
-  for (const auto& row : enumerators<Enumeration>()) choices.push_back(capitalised(row.label));
-  return choices;
+template <class Number>
+FilterParameter option_parameter(std::string name, Number default_value,
+                                 const NumberOption<Number>& option, std::string label,
+                                 const std::string& tooltip) {
+  constexpr bool is_whole = std::is_integral_v<Number>;
+  return number_parameter(std::move(name), is_whole ? ParameterKind::Integer : ParameterKind::Real,
+                          default_value, option.minimum, option.maximum, std::move(label),
+                          tooltip + " " + capitalised(range_text(option)) + ".");
 }
 
 /// Makes a parameter for an enumeration of the library. The tooltip explains each choice.
 template <class Enumeration>
 FilterParameter table_parameter(std::string name, Enumeration default_value, std::string label,
                                 std::string tooltip) {
+  const auto& rows = enumerators<Enumeration>();
   FilterParameter parameter =
-      choice_parameter(std::move(name), static_cast<int>(default_value), choices_of<Enumeration>(),
-                       std::move(label), std::move(tooltip));
-  for (const auto& row : enumerators<Enumeration>()) {
+      number_parameter(std::move(name), ParameterKind::Choice, static_cast<int>(default_value), 0,
+                       static_cast<int>(std::size(rows)) - 1, std::move(label), std::move(tooltip));
+  for (const auto& row : rows) {
+    parameter.choices.push_back(capitalised(row.label));
     if (row.meaning.empty()) continue;
     parameter.choices_help.append(" ").append(short_label(row.label)).append(": ");
     parameter.choices_help.append(row.meaning).append(".");
@@ -100,10 +95,9 @@ FilterParameter table_parameter(std::string name, Enumeration default_value, std
 FilterParameter flag_parameter(std::string name, bool default_value, std::string label,
                                std::string tooltip);
 FilterParameter text_parameter(std::string name, std::string label, std::string tooltip);
-FilterParameter input_file_parameter(std::string name, std::vector<std::string> extensions,
-                                     std::string label, std::string tooltip);
-FilterParameter output_file_parameter(std::string name, std::vector<std::string> extensions,
-                                      std::string label, std::string tooltip);
+FilterParameter file_parameter(std::string name, ParameterKind kind,
+                               std::vector<std::string> extensions, std::string label,
+                               std::string tooltip);
 
 /// A number, with enumerations as index and flags as 0 or 1, or a text.
 using ParameterValue = std::variant<double, std::string>;

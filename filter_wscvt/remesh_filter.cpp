@@ -70,9 +70,10 @@ ParameterList seldom_needed_parameters() {
       flag_parameter("KeepColors", true, "Keep colors and labels",
                      "The result takes color and quality from the nearest point of the scan. "
                      "The scan's quality then replaces the radial distance."),
-      output_file_parameter("CoefficientsFile", {".json", ".sh"}, "Coefficients file",
-                            "For the coefficients of the SH series: .json, or .sh for SHTOOLS (no "
-                            "overhangs). Empty: no file. The filter that creates grains reads it."),
+      file_parameter("CoefficientsFile", ParameterKind::OutputFile, {".json", ".sh"},
+                     "Coefficients file",
+                     "For the coefficients of the SH series: .json, or .sh for SHTOOLS (no "
+                     "overhangs). Empty: no file. The filter that creates grains reads it."),
   };
   for (FilterParameter& parameter : parameters) parameter.advanced = true;
   return parameters;
@@ -83,7 +84,7 @@ ParameterList seldom_needed_parameters() {
 ParameterList remesh_parameters() {
   ParameterList parameters = {
       node_count_parameter(),
-      method_parameter(Method::OnScan),
+      method_parameter(),
       weighting_parameter(),
       edge_ratio_parameter(),
       flag_parameter("Distances", RemeshOptions().measures.distances, "Measure distances",

@@ -12,8 +12,8 @@
 namespace wscvt::filter {
 
 FilterParameter report_file_parameter() {
-  return output_file_parameter(
-      "ReportFile", report_endings(), "Report file",
+  return file_parameter(
+      "ReportFile", ParameterKind::OutputFile, report_endings(), "Report file",
       "For the report: .html (with pictures), .json (everything) or .csv (appends a row to a "
       "table). Empty: no report. The log shows the path.");
 }

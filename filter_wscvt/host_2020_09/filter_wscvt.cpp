@@ -98,19 +98,19 @@ QString FilterWscvt::filterInfo(FilterIDType filter) const {
 }
 
 MeshFilterInterface::FilterClass FilterWscvt::getClass(QAction* action) {
-  switch (filter_with_number(ID(action)).menu) {
-    case FilterMenu::Creation:
+  switch (filter_with_number(ID(action)).id) {
+    case FilterId::Create:
       return MeshFilterInterface::MeshCreation;
-    case FilterMenu::Measure:
+    case FilterId::Describe:
       return MeshFilterInterface::Measure;
-    case FilterMenu::Remeshing:
+    case FilterId::Remesh:
       break;
   }
   return MeshFilterInterface::Remeshing;
 }
 
 MeshFilterInterface::FILTER_ARITY FilterWscvt::filterArity(QAction* action) const {
-  const bool alone = filter_with_number(ID(action)).menu == FilterMenu::Creation;
+  const bool alone = filter_with_number(ID(action)).id == FilterId::Create;
   return alone ? MeshFilterInterface::NONE : MeshFilterInterface::SINGLE_MESH;
 }
 

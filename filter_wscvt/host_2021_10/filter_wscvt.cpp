@@ -90,19 +90,19 @@ QString FilterWscvt::filterInfo(ActionIDType filter) const {
 }
 
 FilterPlugin::FilterClass FilterWscvt::getClass(const QAction* action) const {
-  switch (filter_with_number(ID(action)).menu) {
-    case FilterMenu::Creation:
+  switch (filter_with_number(ID(action)).id) {
+    case FilterId::Create:
       return FilterPlugin::MeshCreation;
-    case FilterMenu::Measure:
+    case FilterId::Describe:
       return FilterPlugin::Measure;
-    case FilterMenu::Remeshing:
+    case FilterId::Remesh:
       break;
   }
   return FilterPlugin::Remeshing;
 }
 
 FilterPlugin::FilterArity FilterWscvt::filterArity(const QAction* action) const {
-  const bool alone = filter_with_number(ID(action)).menu == FilterMenu::Creation;
+  const bool alone = filter_with_number(ID(action)).id == FilterId::Create;
   return alone ? FilterPlugin::NONE : FilterPlugin::SINGLE_MESH;
 }
 
