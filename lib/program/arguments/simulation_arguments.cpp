@@ -18,8 +18,7 @@ void add_tetrahedra_arguments(CLI::App& app, TetrahedraArguments& arguments,
 }
 
 void add_tetrahedra_edge(CLI::App& app, TetrahedraArguments& arguments) {
-  add_number(app, "--" + std::string(tetrahedra_edge_option.key), arguments.edge,
-             tetrahedra_edge_option)
+  add_number(app, arguments.edge, tetrahedra_edge_option)
       ->needs("--tetrahedra")
       ->group(finer_settings);
 }
@@ -35,8 +34,7 @@ std::vector<std::string> write_all_tetrahedra(const TetrahedraArguments& argumen
   if (arguments.files.empty()) return {};
   const TetrahedralMesh mesh = make();
   for (const std::string& path : arguments.files) {
-    work.write(path,
-               [&](const std::string& name, const Execution&) { write_tetrahedra(name, mesh); });
+    work.write(path, [&] { write_tetrahedra(path, mesh); });
   }
   return {tetrahedra_line(mesh)};
 }
@@ -51,15 +49,10 @@ void add_files(CLI::App& app, const std::string& name, const std::string& type,
 }
 
 void add_options(CLI::App& app, SimulationOptions& options) {
-  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), options.frame.frame);
-  add_number(app, "--" + std::string(size_option.key), options.frame.size, size_option)
-      ->group(finer_settings);
-  add_number(app, "--" + std::string(scale_option.key), options.frame.scale, scale_option)
-      ->group(finer_settings);
-  add_number(app, "--" + std::string(grid_spacing_option.key), options.grid.spacing,
-             grid_spacing_option)
-      ->needs("--sdf")
-      ->group(finer_settings);
+  add_choice(app, options.frame.frame);
+  add_number(app, options.frame.size, size_option)->group(finer_settings);
+  add_number(app, options.frame.scale, scale_option)->group(finer_settings);
+  add_number(app, options.grid.spacing, grid_spacing_option)->needs("--sdf")->group(finer_settings);
 }
 
 }  // namespace

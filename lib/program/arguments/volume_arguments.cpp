@@ -94,9 +94,8 @@ void add_background_argument(CLI::App& app, double& background, const std::strin
 }
 
 void add_volume_arguments(CLI::App& app, VolumeOptions& options, const std::string& heading) {
-  add_number(app, name_of(smallest_option.key), options.smallest, smallest_option)->group(heading);
-  add_number(app, name_of(smoothing_option.key), options.smoothing, smoothing_option)
-      ->group(heading);
+  add_number(app, options.smallest, smallest_option)->group(heading);
+  add_number(app, options.smoothing, smoothing_option)->group(heading);
   add_background_argument(app, options.background, heading);
   app.add_flag(name_of(at_border_option.key), options.at_border,
                help_of(options.at_border, at_border_option))

@@ -31,6 +31,10 @@ CLI::Option* add_output(CLI::App& app, const std::string& name, std::string& pat
   return app.add_option("-o,--output," + name, path, description)->type_name(type)->required();
 }
 
+void move_to_finer_settings(CLI::App& app, const std::vector<std::string>& names) {
+  for (const std::string& name : names) app.get_option(name)->group(finer_settings);
+}
+
 CLI::Option* add_typed(CLI::App& app, const std::string& names,
                        const std::function<void(std::string_view)>& read) {
   const std::size_t long_name = names.find("--");

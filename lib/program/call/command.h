@@ -50,14 +50,23 @@ CLI::Option* add_number(CLI::App& app, const std::string& names, Number& value,
       ->type_name("N");
 }
 
-/// Adds an argument for a value of a table; as add_number.
+/// Adds it under the option's key.
+template <class Number>
+CLI::Option* add_number(CLI::App& app, Number& value, const NumberOption<Number>& option) {
+  return add_number(app, "--" + std::string(option.key), value, option);
+}
+
+/// Adds an argument for a value of a table, under the table's key; as add_number.
 template <class Enumeration>
-CLI::Option* add_choice(CLI::App& app, const std::string& names, Enumeration& value) {
+CLI::Option* add_choice(CLI::App& app, Enumeration& value) {
   return add_typed(
-             app, names,
+             app, "--" + std::string(EnumerationTable<Enumeration>::key),
              [&value](std::string_view text) { value = from_key<Enumeration>(lower_case(text)); })
       ->description(help_of(value))
       ->type_name("NAME");
 }
+
+/// Moves arguments to those that only --help-all shows.
+void move_to_finer_settings(CLI::App& app, const std::vector<std::string>& names);
 
 }  // namespace wscvt::program

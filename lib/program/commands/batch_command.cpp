@@ -65,10 +65,10 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
                  "these per line")
       ->type_name("INPUT")
       ->required();
-  app.add_option("-o,--output", arguments.folder, "Output folder")->type_name("OUT")->required();
+  add_folder_argument(app, arguments.folder);
   add_shard_argument(app, arguments.shard);
   add_format_argument(app, arguments.job.format);
-  add_choice(app, "--describe", arguments.job.shapes.described);
+  add_choice(app, arguments.job.shapes.described);
   add_remesh_arguments(app, arguments.job.remesh);
   add_simulation_arguments(app, arguments.job);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
@@ -84,7 +84,7 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
   CLI::Option* parts = app.get_option("--" + std::string(parts_option.key));
   parts->description(parts->get_description() + ". Also make each body of a mesh a grain");
   add_threads_argument(app, arguments.threads);
-  app.add_flag("-q,--quiet", arguments.quiet, "Print only warnings and failures");
+  add_quiet_argument(app, arguments.quiet);
   return app;
 }
 

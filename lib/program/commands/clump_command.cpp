@@ -41,9 +41,7 @@ struct AddClumpOption {
     const std::string letter = option.key == sphere_count_option.key ? "-k," : "";
     add_number(app, letter + "--" + std::string(option.key), value, option);
   }
-  void operator()(ClumpError& value) {
-    add_choice(app, "--" + std::string(EnumerationTable<ClumpError>::key), value);
-  }
+  void operator()(ClumpError& value) { add_choice(app, value); }
   void operator()(bool& value, const FlagOption& option) {
     app.add_flag("--" + std::string(option.key), value, help_of(value, option));
   }
@@ -79,22 +77,15 @@ CLI::App& add_arguments(CLI::App& program, ClumpArguments& arguments) {
                      typed_text(arguments.job.clump.sphere_count) + ", with an allowed error " +
                      typed_text(arguments.job.clump.most_spheres));
   arguments.count = count;
-  for (const char* name : {"--points", "--shrink-wrap", "--max-repaired-area"}) {
-    app.get_option(name)->group(finer_settings);
-  }
-  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame)
-      ->group(finer_settings);
-  add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
-  add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option)
-      ->group(finer_settings);
-  arguments.sample.density = add_number(app, "--" + std::string(clump_density_option.key),
-                                        arguments.job.density, clump_density_option)
-                                 ->group(finer_settings);
+  move_to_finer_settings(app, {"--points", "--shrink-wrap", "--max-repaired-area"});
+  add_choice(app, arguments.job.frame.frame)->group(finer_settings);
+  add_number(app, arguments.job.frame.size, size_option);
+  add_number(app, arguments.job.frame.scale, scale_option)->group(finer_settings);
+  arguments.sample.density =
+      add_number(app, arguments.job.density, clump_density_option)->group(finer_settings);
   tell_density_of_packing(*app.get_option("--density"));
   add_common_arguments(app, arguments.common);
-  for (const char* name : {"--threads", "--quiet"}) {
-    app.get_option(name)->group(finer_settings);
-  }
+  move_to_finer_settings(app, {"--threads", "--quiet"});
   return app;
 }
 
@@ -134,9 +125,7 @@ int run(const ClumpArguments& arguments) {
       make_clump(std::move(file.mesh), job.clump, work.execution().part(reading_share, 1.0));
   clump.warnings.insert(clump.warnings.begin(), file.warnings.begin(), file.warnings.end());
   for (const std::string& output : arguments.outputs) {
-    work.write(output, [&](const std::string& path, const Execution&) {
-      write_clump(path, clump, job.frame, job.density);
-    });
+    work.write(output, [&] { write_clump(output, clump, job.frame, job.density); });
   }
   work.write_reports(common.reports, clump, origin_of(scan));
   work.print(clump.warnings, clump_lines(clump));

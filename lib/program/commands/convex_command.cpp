@@ -58,15 +58,14 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
   arguments.sample.density =
       add_number(app, "--density", arguments.job.density, parts_density_option);
   tell_density_of_packing(*app.get_option("--density"));
-  add_choice(app, "--" + std::string(EnumerationTable<Frame>::key), arguments.job.frame.frame);
-  add_number(app, "--" + std::string(size_option.key), arguments.job.frame.size, size_option);
-  add_number(app, "--" + std::string(scale_option.key), arguments.job.frame.scale, scale_option);
+  add_choice(app, arguments.job.frame.frame);
+  add_number(app, arguments.job.frame.size, size_option);
+  add_number(app, arguments.job.frame.scale, scale_option);
   add_remesh_arguments(app, arguments.job.remesh, Remeshed::Parts);
   app.get_option("--nodes")->description(
       help_of(arguments.job.remesh.node_count, convex_nodes_option));
   add_common_arguments(app, arguments.common);
-  for (const char* name : {"--frame", "--scale", "--threads"})
-    app.get_option(name)->group(finer_settings);
+  move_to_finer_settings(app, {"--frame", "--scale", "--threads"});
   return app;
 }
 
@@ -112,8 +111,8 @@ int run(const ConvexArguments& arguments) {
                                   work.execution().part(reading_share, 1.0));
   result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
   for (const std::string& output : arguments.outputs) {
-    work.write(output, [&](const std::string& path, const Execution&) {
-      const Sentence warning = write_parts(path, result, job.frame, job.density);
+    work.write(output, [&] {
+      const Sentence warning = write_parts(output, result, job.frame, job.density);
       if (!warning.empty()) result.warnings.push_back(warning);
     });
   }

@@ -108,9 +108,7 @@ CLI::App& add_arguments(CLI::App& program, CreateArguments& arguments) {
   add_remesh_arguments(app, arguments.options, Remeshed::Surface);
   add_common_arguments(app, arguments.common);
   add_verbose_argument(app, arguments.common.verbose);
-  for (const char* name : {"--threads", "--quiet", "--verbose"}) {
-    app.get_option(name)->group(finer_settings);
-  }
+  move_to_finer_settings(app, {"--threads", "--quiet", "--verbose"});
   return app;
 }
 
@@ -134,8 +132,7 @@ int run(const CreateArguments& arguments) {
   Work work(common.threads, common.quiet);
   const RemeshResult result = remesh(arguments.surface, options, work.execution());
 
-  work.write(arguments.output,
-             [&](const std::string& path, const Execution&) { write_mesh(result.mesh, path); });
+  work.write(arguments.output, [&] { write_mesh(result.mesh, arguments.output); });
   work.write_reports(common.reports, result, origin_of(surface_name(arguments.surface)));
   work.print_log(result, common.verbose);
   return Done;

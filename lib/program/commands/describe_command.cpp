@@ -159,14 +159,11 @@ void describe_labels(const DescribeArguments& arguments) {
   FabricOptions options = arguments.fabric;
   options.scan = scan.get();
   const Fabric fabric = measure_fabric(*labels, options, work.execution());
-  const auto write = [&](const char* name, const auto& content) {
-    work.write(in_folder(name),
-               [&](const std::string& path, const Execution&) { write_file(path, content()); });
-  };
-  write("contacts.csv", [&] { return contacts_csv(fabric); });
-  write("grains.csv", [&] { return fabric_grains_csv(fabric); });
-  write("contacts.vtp", [&] { return contacts_vtp(fabric); });
-  write("fabric.html", [&] { return fabric_html(fabric, origin_of(arguments.grain)); });
+  work.write_text(in_folder("contacts.csv"), [&] { return contacts_csv(fabric); });
+  work.write_text(in_folder("grains.csv"), [&] { return fabric_grains_csv(fabric); });
+  work.write_text(in_folder("contacts.vtp"), [&] { return contacts_vtp(fabric); });
+  work.write_text(in_folder("fabric.html"),
+                  [&] { return fabric_html(fabric, origin_of(arguments.grain)); });
   std::vector<std::string> lines = {labels->description()};
   lines.insert(lines.end(), labels->notes().begin(), labels->notes().end());
   for (std::string& line : fabric_lines(fabric)) lines.push_back(std::move(line));
@@ -202,11 +199,8 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
       "--parts", arguments.parts,
       "Measure each connected part of GRAIN by itself, as convex parts: their distances and "
       "volume");
-  const auto add = [&](double& value, const NumberOption<double>& option) {
-    add_number(app, "--" + std::string(option.key), value, option);
-  };
-  add(arguments.options.roundness_ball, roundness_ball_option);
-  add(arguments.options.roughness_cutoff, roughness_cutoff_option);
+  add_number(app, arguments.options.roundness_ball, roundness_ball_option);
+  add_number(app, arguments.options.roughness_cutoff, roughness_cutoff_option);
   add_choice_arguments(app, arguments.choice, finer_settings);
   CLI::Option* voxel_size = app.get_option("--" + std::string(voxel_size_option.key));
   voxel_size->description(voxel_size->get_description() +

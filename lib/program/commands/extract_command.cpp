@@ -80,22 +80,18 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
       conform_labels(grains.voxels(), labels, options, work.execution());
   const std::vector<IndexedMesh> meshes = body_meshes(result, result.grains.size());
   for (std::size_t g = 0; g < labels.size(); ++g) {
-    work.write(in_folder(files[g]),
-               [&](const std::string& path, const Execution&) { write_mesh(meshes[g], path); });
+    const std::string path = in_folder(files[g]);
+    work.write(path, [&] { write_mesh(meshes[g], path); });
   }
-  const auto write = [&](const char* name, const std::string& text) {
-    work.write(in_folder(name),
-               [&](const std::string& path, const Execution&) { write_file(path, text); });
-  };
   std::string rows = label_header();
   for (const LabelExtent& label : grains.labels()) {
     rows += label_row(arguments.input, grains, label, {});
   }
-  write("labels.csv", rows);
-  write("walls.vtu", walls_vtu(result, labels));
-  write("walls.msh", walls_msh(result, labels));
-  write("walls.csv", walls_csv(result, labels));
-  write("grains.csv", conforming_csv(result, labels, files));
+  work.write_text(in_folder("labels.csv"), [&] { return rows; });
+  work.write_text(in_folder("walls.vtu"), [&] { return walls_vtu(result, labels); });
+  work.write_text(in_folder("walls.msh"), [&] { return walls_msh(result, labels); });
+  work.write_text(in_folder("walls.csv"), [&] { return walls_csv(result, labels); });
+  work.write_text(in_folder("grains.csv"), [&] { return conforming_csv(result, labels, files); });
   std::vector<std::string> lines = conforming_lines(result);
   lines.insert(lines.begin(), census_line(census_states(rows), "labels"));
   for (std::string& line : older.remove_but(files, arguments.input))
@@ -205,10 +201,8 @@ CLI::App& add_arguments(CLI::App& program, ExtractArguments& arguments) {
   add_shard_argument(app, arguments.shard);
   add_threads_argument(app, arguments.threads);
   add_quiet_argument(app, arguments.quiet);
-  for (const char* name : {"--smoothing", "--background", "--at-border", "--select", "--shard",
-                           "--threads", "--quiet"}) {
-    app.get_option(name)->group(finer_settings);
-  }
+  move_to_finer_settings(app, {"--smoothing", "--background", "--at-border", "--select", "--shard",
+                               "--threads", "--quiet"});
   return app;
 }
 

@@ -181,19 +181,17 @@ int run(const FragmentArguments& arguments) {
   const MadeFolder made(arguments.folder);
   std::vector<Rounding> roundings(files.size());
   for (std::size_t k = 0; k < files.size(); ++k) {
-    work.write((folder / files[k]).string(), [&](const std::string& path, const Execution&) {
-      roundings[k] =
-          write_fragment(path, fragments.list[k].mesh, fragments.list[k].mass, arguments.density);
-    });
+    const std::string path = (folder / files[k]).string();
+    const Fragment& one = fragments.list[k];
+    work.write(path,
+               [&] { roundings[k] = write_fragment(path, one.mesh, one.mass, arguments.density); });
   }
   const std::vector<std::string> rounded = rounding_lines(roundings);
   lines.insert(lines.end(), rounded.begin(), rounded.end());
-  work.write((folder / "fragments.csv").string(), [&](const std::string& path, const Execution&) {
-    write_file(path, fragments_csv(fragments, files));
-  });
-  work.write((folder / "contacts.csv").string(), [&](const std::string& path, const Execution&) {
-    write_file(path, fragment_contacts_csv(fragments));
-  });
+  work.write_text((folder / "fragments.csv").string(),
+                  [&] { return fragments_csv(fragments, files); });
+  work.write_text((folder / "contacts.csv").string(),
+                  [&] { return fragment_contacts_csv(fragments); });
   const auto filled = write_all_tetrahedra(arguments.tetrahedra, work, [&] {
     std::vector<IndexedMesh> meshes;
     std::vector<std::string> names;

@@ -60,9 +60,7 @@ CLI::App& add_arguments(CLI::App& program, RemeshArguments& arguments) {
   add_file_argument(
       app, "--coefficients", arguments.coefficients,
       "Write the coefficients of the SH series to this file: .json, or .sh (SHTOOLS, 4pi)");
-  for (const char* name : {"--threads", "--quiet", "--verbose", "--coefficients"}) {
-    app.get_option(name)->group(finer_settings);
-  }
+  move_to_finer_settings(app, {"--threads", "--quiet", "--verbose", "--coefficients"});
   return app;
 }
 
@@ -144,21 +142,19 @@ int run(const RemeshArguments& arguments) {
 
   const ReportOrigin origin = origin_of(arguments.scan);
   const SimulationFrame frame = simulation_frame(result.scan, simulation.options.frame);
-  work.write(arguments.output, [&](const std::string& path, const Execution& execution) {
+  work.write(arguments.output, [&] {
     const MeshAttributes attributes =
-        carries ? carried_attributes(scan, file.attributes, result.mesh, execution)
+        carries ? carried_attributes(scan, file.attributes, result.mesh, work.writing())
                 : MeshAttributes();
-    write_mesh(in_frame(result.mesh, frame), attributes, path);
+    write_mesh(in_frame(result.mesh, frame), attributes, arguments.output);
   });
   std::vector<Rounding> roundings;
   for (const std::string& nodes : simulation.nodes) {
-    work.write(nodes, [&](const std::string& path, const Execution&) {
-      roundings.push_back(write_nodes(path, result, simulation.options));
-    });
+    work.write(nodes, [&] { roundings.push_back(write_nodes(nodes, result, simulation.options)); });
   }
   for (const std::string& grid : simulation.grids) {
-    work.write(grid, [&](const std::string& path, const Execution& execution) {
-      write_distance_grid(path, result, simulation.options, origin, execution);
+    work.write(grid, [&] {
+      write_distance_grid(grid, result, simulation.options, origin, work.writing());
     });
   }
   std::vector<ReportAddition> additions;
@@ -167,9 +163,7 @@ int run(const RemeshArguments& arguments) {
   lines.insert(lines.end(), filled.begin(), filled.end());
   work.write_reports(common.reports, result, origin, additions);
   if (!arguments.coefficients.empty()) {
-    work.write(arguments.coefficients, [&](const std::string& path, const Execution&) {
-      write_coefficients(path, result);
-    });
+    work.write(arguments.coefficients, [&] { write_coefficients(arguments.coefficients, result); });
   }
   work.print_log(result, common.verbose, lines);
   return Done;

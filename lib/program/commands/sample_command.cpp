@@ -83,8 +83,8 @@ CLI::App& add_arguments(CLI::App& program, SampleArguments& arguments) {
                  "A folder or a table; a second sample is compared with the first")
       ->type_name("SAMPLE")
       ->required();
-  add_choice(app, "--diameter", arguments.options.size);
-  add_choice(app, "--describe", arguments.options.of);
+  add_choice(app, arguments.options.size);
+  add_choice(app, arguments.options.of);
   add_typed(app, "--density",
             [&arguments](std::string_view text) { arguments.densities = densities_of(text); })
       ->description(
@@ -136,9 +136,7 @@ int run(const SampleArguments& arguments) {
   }
   compare_samples(report, execution);
   for (const std::string& file : arguments.reports) {
-    work.write(file, [&](const std::string& path, const Execution& part) {
-      write_sample_report(path, report, part);
-    });
+    work.write(file, [&] { write_sample_report(file, report, work.writing()); });
   }
   work.print({}, arguments.verbose ? sample_lines(report) : summary_lines(report));
   return Done;

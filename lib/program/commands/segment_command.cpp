@@ -102,11 +102,10 @@ int run(const SegmentArguments& arguments) {
   Work work(arguments.threads, arguments.quiet);
   const Segmentation result = segment(*scan, arguments.options, work.execution().part(0.0, 0.9));
   const auto grains = static_cast<Label>(result.grains.size());
-  work.write(arguments.labels, [&](const std::string& path, const Execution& execution) {
-    write_labels(path, *result.labels, grains, execution);
-  });
-  work.write(page, [&](const std::string& path, const Execution& execution) {
-    write_file(path, segmentation_html(*scan, result, origin_of(arguments.scan), execution));
+  work.write(arguments.labels,
+             [&] { write_labels(arguments.labels, *result.labels, grains, work.writing()); });
+  work.write_text(page, [&] {
+    return segmentation_html(*scan, result, origin_of(arguments.scan), work.writing());
   });
   std::vector<std::string> lines = {scan->description()};
   lines.insert(lines.end(), scan->notes().begin(), scan->notes().end());

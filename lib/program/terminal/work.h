@@ -9,6 +9,7 @@
 #include "program/terminal/terminal.h"
 #include "toolbox/job/grain_job.h"
 #include "wscvt/base/execution.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt::program {
@@ -26,14 +27,22 @@ class Work {
   /// Returns the Execution of the work before the first file is written.
   const Execution& execution() const { return execution_; }
 
-  /// Calls write_it(path, execution), which makes and writes one file. Throws its exceptions, and
+  /// Returns the Execution of what makes the content of files.
+  Execution writing() const { return execution_.part(1.0, 1.0); }
+
+  /// Calls write_it(), which makes and writes the file of this path. Throws its exceptions, and
   /// wscvt::Error(Cancelled).
   template <class Write>
   void write(const std::string& path, const Write& write_it) {
-    const Execution writing = execution_.part(1.0, 1.0);
-    writing.report(1.0, "Writing \"" + path + "\"");
-    write_it(path, writing);
+    writing().report(1.0, "Writing \"" + path + "\"");
+    write_it();
     written_.push_back(path);
+  }
+
+  /// Writes the text that content() returns.
+  template <class Content>
+  void write_text(const std::string& path, const Content& content) {
+    write(path, [&] { write_file(path, content()); });
   }
 
   /// Writes the reports of a result, each in the format of its file's name. `more`: what its
@@ -42,9 +51,7 @@ class Work {
   void write_reports(const std::vector<std::string>& reports, const Result& result,
                      const ReportOrigin& origin, const More&... more) {
     for (const std::string& report : reports) {
-      write(report, [&](const std::string& path, const Execution& execution) {
-        write_report(path, result, origin, more..., execution);
-      });
+      write(report, [&] { write_report(report, result, origin, more..., writing()); });
     }
   }
 
