@@ -17,7 +17,7 @@ namespace wscvt {
 namespace {
 
 Eigen::ArrayXd column(const GrainTable& table, const std::string& name) {
-  return table.values.col(static_cast<Eigen::Index>(table.index_of(name))).array();
+  return table.values.col(table.index_of(name)).array();
 }
 
 bool is_contact_error(const std::string& name) { return name.rfind("contact_", 0) == 0; }

@@ -19,9 +19,7 @@ Distribution::Distribution(const Eigen::VectorXd& values)
     : Distribution(values, Eigen::VectorXd::Ones(values.size())) {}
 
 Distribution::Distribution(const std::vector<double>& values)
-    : Distribution(
-          Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()))
-              .eval()) {}
+    : Distribution(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size()).eval()) {}
 
 Distribution::Distribution(const Eigen::VectorXd& values, const Eigen::VectorXd& weights) {
   std::vector<std::pair<double, std::uint32_t>> sorted;

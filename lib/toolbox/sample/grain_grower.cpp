@@ -94,9 +94,9 @@ Vector3 powers(const Vector3& bases, double exponent) {
 
 /// Returns the deviations of sphericity and convexity over the sample; above 0.
 Eigen::Vector2d deviations_of(const std::vector<SampleGrain>& sample) {
-  Eigen::Array2Xd values(2, static_cast<Eigen::Index>(sample.size()));
+  Eigen::Array2Xd values(2, sample.size());
   for (std::size_t k = 0; k < sample.size(); ++k) {
-    values.col(static_cast<Eigen::Index>(k)) << sample[k].sphericity, sample[k].convexity;
+    values.col(k) << sample[k].sphericity, sample[k].convexity;
   }
   values.colwise() -= values.rowwise().mean().eval();
   return values.square().rowwise().mean().sqrt().max(1e-12);

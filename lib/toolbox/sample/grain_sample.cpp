@@ -33,13 +33,9 @@ const char* column_of(SizeMeasure size) {
   return "feret_min";
 }
 
-bool starts_with(const std::string& text, const std::string& start) {
-  return text.compare(0, start.size(), start) == 0;
-}
-
 /// Position and orientation of a grain are not its shape.
 bool is_pose(const std::string& name) {
-  return starts_with(name, "centroid_") || starts_with(name, "principal_axes_");
+  return name.rfind("centroid_", 0) == 0 || name.rfind("principal_axes_", 0) == 0;
 }
 
 /// Returns the columns of a mesh, as indices into the table.
@@ -47,7 +43,7 @@ std::vector<std::size_t> places_of(const GrainTable& table, const std::string& m
   std::vector<std::size_t> places;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     const std::string& name = table.columns[k].name;
-    if (starts_with(name, mesh) && !is_pose(name.substr(mesh.size()))) places.push_back(k);
+    if (name.rfind(mesh, 0) == 0 && !is_pose(name.substr(mesh.size()))) places.push_back(k);
   }
   return places;
 }
@@ -77,17 +73,11 @@ std::vector<std::size_t> choose_columns(const GrainTable& table, const SampleOpt
   return places;
 }
 
-std::optional<std::size_t> find(const GrainSample& sample, const std::string& name) {
-  for (std::size_t k = 0; k < sample.columns.size(); ++k) {
-    if (sample.columns[k].name == name) return k;
-  }
-  return {};
-}
-
 /// The column that gives a size: its own, or for the equivalent diameter the volume.
 std::optional<std::size_t> place_of_size(const GrainSample& sample, SizeMeasure size) {
-  const auto own = find(sample, column_of(size));
-  return own || size != SizeMeasure::EquivalentDiameter ? own : find(sample, "volume");
+  const auto own = find_column(sample.columns, column_of(size));
+  return own || size != SizeMeasure::EquivalentDiameter ? own
+                                                        : find_column(sample.columns, "volume");
 }
 
 /// Returns the size measures that the columns have, for a sentence.
@@ -128,9 +118,7 @@ using MassOf = std::function<double(Eigen::Index row, double volume)>;
 /// Chooses the source of the masses.
 MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSample& sample) {
   const auto column = [&](std::size_t place) {
-    return [&table, place](Eigen::Index row) {
-      return table.values(row, static_cast<Eigen::Index>(place));
-    };
+    return [&table, place](Eigen::Index row) { return table.values(row, place); };
   };
   const auto mass = table.find("mass");
   const auto density = table.find("density");
@@ -156,7 +144,7 @@ void add_resolution(const GrainTable& table, const std::vector<Eigen::Index>& ke
   if (!across) return;
   const auto rows = static_cast<Eigen::Index>(kept.size());
   const auto read = [&](std::size_t column, Eigen::Index row) {
-    return table.values(kept[row], static_cast<Eigen::Index>(column));
+    return table.values(kept[row], column);
   };
   sample.voxels_across.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row) sample.voxels_across[row] = read(*across, row);
@@ -240,7 +228,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     sample.notes.push_back("Sizes are from the column \"volume\".");
   }
   const auto value = [&](Eigen::Index grain, std::size_t column) {
-    return table.values(grain, static_cast<Eigen::Index>(places[column]));
+    return table.values(grain, places[column]);
   };
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < table.values.rows(); ++k) {
@@ -250,7 +238,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   if (without > 0) {
     sample.notes.push_back(format_count(without, "grain") + " without a size left out.");
   }
-  const auto volume = find(sample, "volume");
+  const auto volume = find_column(sample.columns, "volume");
   if (!volume && (options.density || !table.find("mass"))) {
     sample.notes.push_back(
         "The table has no column \"volume\", so masses are computed for spheres of the grains' "
@@ -280,7 +268,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
            ". Statistics need two or more.");
   }
   const auto rows = static_cast<Eigen::Index>(kept.size());
-  sample.values.resize(rows, static_cast<Eigen::Index>(places.size()));
+  sample.values.resize(rows, places.size());
   sample.sizes.resize(rows);
   sample.masses.resize(rows);
   for (Eigen::Index row = 0; row < rows; ++row) {
@@ -288,7 +276,7 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
     sample.grains.push_back(table.grains[k]);
     if (!table.files.empty()) sample.files.push_back(table.files[k]);
     for (std::size_t column = 0; column < places.size(); ++column) {
-      sample.values(row, static_cast<Eigen::Index>(column)) = value(k, column);
+      sample.values(row, column) = value(k, column);
     }
     sample.sizes[row] = size_of(k);
     sample.masses[row] = mass_in(k);

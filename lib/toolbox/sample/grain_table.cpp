@@ -46,8 +46,7 @@ bool has_thousands(std::string_view field) {
 
 /// Whether a descriptor is a size, which is above 0.
 bool is_size(std::string_view name) {
-  const std::size_t point = name.rfind("scan.");
-  if (point == 0) name.remove_prefix(5);
+  if (name.rfind("scan.", 0) == 0) name.remove_prefix(5);
   return name == "volume" || name == "area" || name.rfind("axis_", 0) == 0 ||
          name.rfind("feret_", 0) == 0 || name == "equivalent_radius" ||
          name == "equivalent_diameter" || name == "mass" || name == "density";
@@ -391,11 +390,10 @@ GrainTable TableReader::table() {
     fail("no column of the table has numbers. Write numbers without units, with decimal points.");
   }
   const auto rows = static_cast<Eigen::Index>(table_.grains.size());
-  table_.values.resize(rows, static_cast<Eigen::Index>(taken.size()));
+  table_.values.resize(rows, taken.size());
   for (std::size_t k = 0; k < taken.size(); ++k) {
     const std::vector<double> numbers = std::move(numbers_[taken[k]]);
-    table_.values.col(static_cast<Eigen::Index>(k)) =
-        Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
+    table_.values.col(k) = Eigen::Map<const Eigen::VectorXd>(numbers.data(), rows);
   }
   return std::move(table_);
 }
@@ -410,7 +408,8 @@ bool has_old_lines(const std::string& path) {
 
 }  // namespace
 
-std::optional<std::size_t> GrainTable::find(std::string_view name) const {
+std::optional<std::size_t> find_column(const std::vector<GrainColumn>& columns,
+                                       std::string_view name) {
   const auto found = std::find_if(columns.begin(), columns.end(),
                                   [&](const GrainColumn& column) { return column.name == name; });
   if (found == columns.end()) return {};

@@ -16,6 +16,10 @@ struct GrainColumn {
   std::string unit;  ///< "length^3"; empty if the heading names none
 };
 
+/// Returns the index of a column; nothing if there is none of this name.
+std::optional<std::size_t> find_column(const std::vector<GrainColumn>& columns,
+                                       std::string_view name);
+
 /// A sample as a table of numbers: a row per grain, a column per measure.
 struct GrainTable {
   std::vector<std::string> grains;  ///< names, one per row
@@ -28,7 +32,9 @@ struct GrainTable {
   std::vector<std::string> text_columns;
 
   /// Returns the index of a column; nothing if the table has no such column.
-  std::optional<std::size_t> find(std::string_view name) const;
+  std::optional<std::size_t> find(std::string_view name) const {
+    return find_column(columns, name);
+  }
 
   /// Returns the names of the columns for a message, at most `most`.
   std::string column_names(std::size_t most = 1000000) const;

@@ -16,8 +16,7 @@ constexpr std::size_t most_grains_of_usual = 400;
 
 Eigen::VectorXd amplitudes_of(const std::vector<double>& radial) {
   const std::vector<double> amplitudes = degree_amplitudes(radial);
-  return Eigen::Map<const Eigen::VectorXd>(amplitudes.data(),
-                                           static_cast<Eigen::Index>(amplitudes.size()));
+  return Eigen::Map<const Eigen::VectorXd>(amplitudes.data(), amplitudes.size());
 }
 
 bool is_odd(unsigned bits) { return ((bits ^ bits >> 1U ^ bits >> 2U) & 1U) != 0; }
@@ -28,25 +27,24 @@ GrainSearch::GrainSearch(const std::vector<SampleGrain>& sample) {
   if (sample.empty()) refuse("The sample has no grains to compare with. Give at least one.");
   const std::size_t count = sample.front().radial.size();
   for (int wanted = 0; wanted < 8; ++wanted) {
-    classes_[wanted] = static_cast<Eigen::Index>(places_.size());
+    classes_[wanted] = places_.size();
     for (int l = 0; harmonic_count(l) <= count; ++l) {
       for (int m = -l; m <= l; ++m) {
         if (mirror_class(l, m) == wanted) {
-          places_.push_back(static_cast<Eigen::Index>(harmonic_index(l, m)));
+          places_.push_back(harmonic_index(l, m));
         }
       }
     }
   }
-  classes_[8] = static_cast<Eigen::Index>(places_.size());
-  sorted_.resize(classes_[8], static_cast<Eigen::Index>(sample.size()));
+  classes_[8] = places_.size();
+  sorted_.resize(classes_[8], sample.size());
   for (std::size_t k = 0; k < sample.size(); ++k) {
-    sorted_.col(static_cast<Eigen::Index>(k)) = in_classes(sample[k].radial);
+    sorted_.col(k) = in_classes(sample[k].radial);
   }
   squares_ = sorted_.colwise().squaredNorm();
-  amplitudes_.resize(static_cast<Eigen::Index>(degree_amplitudes(sample.front().radial).size()),
-                     sorted_.cols());
+  amplitudes_.resize(degree_amplitudes(sample.front().radial).size(), sorted_.cols());
   for (std::size_t k = 0; k < sample.size(); ++k) {
-    amplitudes_.col(static_cast<Eigen::Index>(k)) = amplitudes_of(sample[k].radial);
+    amplitudes_.col(k) = amplitudes_of(sample[k].radial);
   }
 }
 
@@ -80,7 +78,7 @@ NearestGrain GrainSearch::nearest(const std::vector<double>& radial, std::size_t
       const double distance = square + squares_[k] - 2.0 * product;
       if (distance < least) {
         least = distance;
-        found.grain = static_cast<std::size_t>(k);
+        found.grain = k;
       }
     }
   };
@@ -107,7 +105,7 @@ double GrainSearch::usual_distance(const Execution& execution) const {
   execution.parallel_for(count, 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t grain = i * grains / count;
-      const Eigen::VectorXd sorted = sorted_.col(static_cast<Eigen::Index>(grain));
+      const Eigen::VectorXd sorted = sorted_.col(grain);
       std::vector<double> radial(places_.size());
       for (std::size_t k = 0; k < radial.size(); ++k) {
         radial[places_[k]] = sorted[k];

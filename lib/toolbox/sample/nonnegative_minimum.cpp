@@ -13,7 +13,7 @@ Eigen::VectorXd free_minimum(const Eigen::MatrixXd& g, const Eigen::VectorXd& b,
                              const std::vector<bool>& is_free) {
   std::vector<Eigen::Index> places;
   for (std::size_t k = 0; k < is_free.size(); ++k) {
-    if (is_free[k]) places.push_back(static_cast<Eigen::Index>(k));
+    if (is_free[k]) places.push_back(k);
   }
   const auto count = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixXd part(count, count);

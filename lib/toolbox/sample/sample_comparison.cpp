@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "toolbox/sample/random_stream.h"
@@ -51,6 +50,7 @@ constexpr double rounding = 1e-12;  // relative
 /// One descriptor of two samples in one ascending list.
 class PooledColumn {
  public:
+  PooledColumn() = default;
   /// A row per grain of both samples, one sample after the other. NaN: missing.
   PooledColumn(const Eigen::VectorXd& values, const Eigen::VectorXd& masses) {
     const Distribution all(values);
@@ -237,13 +237,10 @@ void check_units(const GrainColumn& one, const GrainColumn& other) {
 std::vector<ColumnPair> shared_columns(const GrainSample& one, const GrainSample& other) {
   std::vector<ColumnPair> pairs = {{{"size", one.size_unit}, one.sizes, other.sizes}};
   for (std::size_t k = 0; k < one.columns.size(); ++k) {
-    const auto found =
-        std::find_if(other.columns.begin(), other.columns.end(),
-                     [&](const GrainColumn& column) { return column.name == one.columns[k].name; });
-    if (found == other.columns.end()) continue;
-    check_units(one.columns[k], *found);
-    pairs.push_back({one.columns[k], one.values.col(static_cast<Eigen::Index>(k)),
-                     other.values.col(found - other.columns.begin())});
+    const auto found = find_column(other.columns, one.columns[k].name);
+    if (!found) continue;
+    check_units(one.columns[k], other.columns[*found]);
+    pairs.push_back({one.columns[k], one.values.col(k), other.values.col(*found)});
   }
   return pairs;
 }
@@ -255,9 +252,8 @@ double ColumnComparison::in_deviations(const SampleDistance& distance) const {
 }
 
 SampleDistance distance_between(const Distribution& one, const Distribution& other) {
-  const auto mapped = [](const std::vector<double>& numbers) {
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
-        numbers.data(), static_cast<Eigen::Index>(numbers.size())));
+  const auto mapped = [](const std::vector<double>& numbers) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(numbers.data(), numbers.size());
   };
   const PooledColumn pooled(joined(mapped(one.values()), mapped(other.values())),
                             joined(mapped(one.weights()), mapped(other.weights())));
@@ -277,20 +273,18 @@ std::vector<ColumnComparison> compare_samples(const GrainSample& one, const Grai
   const Partings given = as_given(of_one, all);
   const Eigen::VectorXd masses = joined(one.masses, other.masses);
   std::vector<ColumnComparison> rows(pairs.size());
-  std::vector<std::optional<PooledColumn>> made(pairs.size());
+  std::vector<PooledColumn> columns(pairs.size());
   execution.parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ColumnPair& pair = pairs[k];
-      made[k].emplace(joined(pair.one, pair.other), masses);
+      columns[k] = PooledColumn(joined(pair.one, pair.other), masses);
       PartingDistances by_number;
       PartingDistances by_mass;
-      made[k]->measure(given, by_number, by_mass);
+      columns[k].measure(given, by_number, by_mass);
       rows[k] = {pair.column, Distribution(pair.one).deviation(), first_lane(by_number),
                  first_lane(by_mass)};
     }
   });
-  std::vector<PooledColumn> columns;
-  for (std::optional<PooledColumn>& column : made) columns.push_back(std::move(*column));
   test_rows(columns, of_one, all, options, execution, rows);
   return rows;
 }

@@ -76,7 +76,7 @@ std::size_t finest_table(const std::vector<GrainTable>& tables) {
   for (std::size_t k = 0; k < tables.size(); ++k) {
     const auto nodes = tables[k].find("nodes");
     if (!nodes) continue;
-    const double count = tables[k].values(0, static_cast<Eigen::Index>(*nodes));
+    const double count = tables[k].values(0, *nodes);
     if (!(count > most)) continue;
     most = count;
     best = k;

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <utility>
 
 #include "toolbox/sample/distribution.h"
 #include "toolbox/sample/random_stream.h"
@@ -42,6 +40,7 @@ using Draws = std::vector<std::array<std::uint16_t, draws_at_once>>;
 /// One number of each grain, whose grains are drawn repeatedly.
 class Repeated {
  public:
+  Repeated() = default;
   Repeated(const Eigen::VectorXd& values, const Eigen::VectorXd& masses, bool is_size)
       : is_size_(is_size) {
     const Distribution distribution(values);
@@ -85,7 +84,7 @@ class Repeated {
   std::vector<double> masses_;
   std::vector<std::uint32_t> grains_;
   double middle_ = 0.0;
-  bool is_size_;
+  bool is_size_ = false;
 };
 
 template <bool by_mass>
@@ -194,8 +193,7 @@ Estimate estimate_of(double value, std::vector<double>& repeated) {
                                 [](double one) { return !std::isfinite(one); }),
                  repeated.end());
   if (repeated.empty() || !std::isfinite(value)) return {value, no_statistic, no_statistic};
-  const Distribution all(Eigen::Map<const Eigen::VectorXd>(
-      repeated.data(), static_cast<Eigen::Index>(repeated.size())));
+  const Distribution all(repeated);
   return {value, all.quantile(0.025), all.quantile(0.975)};
 }
 
@@ -306,16 +304,14 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
                                 const Execution& execution) {
   const std::size_t grains = sample.grains.size();
   execution.report(0.0, "Measuring the sample");
-  std::vector<std::optional<Repeated>> made(sample.columns.size() + 1);
-  execution.parallel_for(made.size(), 1, [&](std::size_t begin, std::size_t end) {
+  std::vector<Repeated> all(sample.columns.size() + 1);
+  execution.parallel_for(all.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto column = static_cast<Eigen::Index>(k) - 1;
-      made[k].emplace(k == 0 ? sample.sizes : Eigen::VectorXd(sample.values.col(column)),
-                      sample.masses, k == 0);
+      all[k] = Repeated(k == 0 ? sample.sizes : Eigen::VectorXd(sample.values.col(column)),
+                        sample.masses, k == 0);
     }
   });
-  std::vector<Repeated> all;
-  for (std::optional<Repeated>& one : made) all.push_back(std::move(*one));
   SampleStatistics statistics;
   statistics.repetitions = repetitions_for(grains, options.repetitions);
   const std::vector<Estimate> estimates = bootstrap(
@@ -338,7 +334,7 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
     column.size_correlation =
         values.size() == grains
             ? correlation_of(size_ranks, ranks_of(values, all[k + 1].grains(), grains), grains)
-            : rank_correlation(sample.sizes, sample.values.col(static_cast<Eigen::Index>(k)));
+            : rank_correlation(sample.sizes, sample.values.col(k));
     statistics.columns.push_back(column);
   }
   for (const double mass : sample.masses) statistics.mass += mass;
@@ -348,21 +344,19 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
 std::vector<VoxelTrend> voxel_trends(const GrainSample& sample) {
   std::vector<VoxelTrend> trends;
   if (sample.voxels_across.size() == 0) return trends;
-  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Array<bool, Eigen::Dynamic, 1> is_trusted =
       sample.voxels_across.array() >= least_trusted_across;
   for (std::size_t k = 0; k < sample.columns.size(); ++k) {
     // Lengths grow with the size anyway.
     if (!sample.columns[k].unit.empty()) continue;
-    const Eigen::VectorXd corrected = sample.corrected.col(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd corrected = sample.corrected.col(k);
     const Eigen::Array<bool, Eigen::Dynamic, 1> is_resolved = corrected.array().isFinite();
-    const Eigen::VectorXd raw =
-        is_resolved.select(sample.values.col(static_cast<Eigen::Index>(k)).array(), missing);
-    const Eigen::VectorXd trusted = is_trusted.select(corrected.array(), missing);
+    const Eigen::VectorXd raw = is_resolved.select(sample.values.col(k).array(), no_statistic);
+    const Eigen::VectorXd trusted = is_trusted.select(corrected.array(), no_statistic);
     VoxelTrend trend;
     trend.name = sample.columns[k].name;
-    trend.count = static_cast<std::size_t>(is_resolved.count());
-    trend.trusted_count = static_cast<std::size_t>((is_resolved && is_trusted).count());
+    trend.count = is_resolved.count();
+    trend.trusted_count = (is_resolved && is_trusted).count();
     if (trend.count == 0) continue;
     trend.raw = rank_correlation(sample.sizes, raw);
     trend.corrected = rank_correlation(sample.sizes, corrected);

@@ -29,7 +29,6 @@ constexpr int random_choices = 20;
 constexpr double sum_weight = 1e3;
 
 using Index = Eigen::Index;
-Index at(std::size_t k) { return static_cast<Index>(k); }
 
 /// Distribution functions of all descriptors at `levels` points each, of the sample by number and
 /// by mass. A grain's own function is a step at its rank, so the product of two is a sum over the
@@ -41,7 +40,7 @@ class StepFunctions {
     const auto grains = static_cast<std::size_t>(standard.rows());
     for (Index j = 0; j < standard.cols(); ++j) {
       std::vector<double> sorted(grains);
-      for (std::size_t i = 0; i < grains; ++i) sorted[i] = standard(at(i), j);
+      for (std::size_t i = 0; i < grains; ++i) sorted[i] = standard(i, j);
       std::sort(sorted.begin(), sorted.end());
       std::vector<double> places;
       for (std::size_t q = 0; q < levels; ++q)
@@ -50,9 +49,9 @@ class StepFunctions {
       std::vector<double> number(places.size(), 0.0), mass(places.size(), 0.0),
           width(places.size());
       for (std::size_t i = 0; i < grains; ++i) {
-        const auto place = std::lower_bound(places.begin(), places.end(), standard(at(i), j));
+        const auto place = std::lower_bound(places.begin(), places.end(), standard(i, j));
         const auto rank = static_cast<std::size_t>(place - places.begin());
-        ranks_(at(i), j) = static_cast<int>(rank);
+        ranks_(i, j) = static_cast<int>(rank);
         number[rank] += 1.0 / static_cast<double>(grains);
         mass[rank] += masses[i];
       }
@@ -71,7 +70,7 @@ class StepFunctions {
   std::size_t grains() const { return static_cast<std::size_t>(ranks_.rows()); }
   const std::vector<std::vector<double>>& widths() const { return widths_; }
   const std::vector<double>& target(int which, Index j) const { return targets_[which][j]; }
-  int rank(std::size_t grain, Index j) const { return ranks_(at(grain), j); }
+  int rank(std::size_t grain, Index j) const { return ranks_(grain, j); }
 
  private:
   Eigen::MatrixXi ranks_;
@@ -127,10 +126,10 @@ struct Choice {
 
 void solve(const Fit (&fits)[2], const Eigen::MatrixXd& matrix, Choice& choice) {
   choice.cost = 0.0;
-  Eigen::VectorXd right(at(choice.grains.size()));
+  Eigen::VectorXd right(choice.grains.size());
   for (int which = 0; which < 2; ++which) {
     for (std::size_t k = 0; k < choice.grains.size(); ++k) {
-      right[at(k)] = fits[which].right_side(choice.grains[k]);
+      right[k] = fits[which].right_side(choice.grains[k]);
     }
     const Eigen::VectorXd& before = choice.weights[which];
     std::vector<bool> start(choice.grains.size(), true);
@@ -142,10 +141,9 @@ void solve(const Fit (&fits)[2], const Eigen::MatrixXd& matrix, Choice& choice) 
 }
 
 Eigen::MatrixXd matrix_of(const Fit& fit, const std::vector<std::size_t>& grains) {
-  Eigen::MatrixXd matrix(at(grains.size()), at(grains.size()));
+  Eigen::MatrixXd matrix(grains.size(), grains.size());
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    for (std::size_t k = 0; k < grains.size(); ++k)
-      matrix(at(i), at(k)) = fit.entry(grains[i], grains[k]);
+    for (std::size_t k = 0; k < grains.size(); ++k) matrix(i, k) = fit.entry(grains[i], grains[k]);
   }
   return matrix;
 }
@@ -157,7 +155,7 @@ double demand(const Fit (&fits)[2], const Choice& choice, std::size_t grain) {
   for (int which = 0; which < 2; ++which) {
     sum += fits[which].right_side(grain);
     for (std::size_t k = 0; k < choice.grains.size(); ++k) {
-      sum -= choice.weights[which][at(k)] * fits[which].entry(grain, choice.grains[k]);
+      sum -= choice.weights[which][k] * fits[which].entry(grain, choice.grains[k]);
     }
   }
   return sum;
@@ -205,10 +203,9 @@ Choice exchanged(const StepFunctions& steps, const TemplateOptions& options,
     trial.grains[place] = wanted;
     Eigen::MatrixXd changed = matrix;
     for (std::size_t k = 0; k < trial.grains.size(); ++k) {
-      changed(at(place), at(k)) = changed(at(k), at(place)) =
-          fits[0].entry(wanted, trial.grains[k]);
+      changed(place, k) = changed(k, place) = fits[0].entry(wanted, trial.grains[k]);
     }
-    for (Eigen::VectorXd& weights : trial.weights) weights[at(place)] = 1.0;
+    for (Eigen::VectorXd& weights : trial.weights) weights[place] = 1.0;
     solve(fits, changed, trial);
     if (trial.cost < best.cost - 1e-12) {
       best = std::move(trial);
@@ -224,7 +221,7 @@ Choice exchanged(const StepFunctions& steps, const TemplateOptions& options,
 /// sample may have 100,000 grains.
 std::vector<Distribution> sample_distributions(const Eigen::MatrixXd& standard,
                                                const std::vector<double>& shares) {
-  const Eigen::Map<const Eigen::VectorXd> weights(shares.data(), at(shares.size()));
+  const Eigen::Map<const Eigen::VectorXd> weights(shares.data(), shares.size());
   std::vector<Distribution> sample;
   for (Index j = 0; j < standard.cols(); ++j) sample.emplace_back(standard.col(j), weights);
   return sample;
@@ -234,11 +231,11 @@ std::vector<double> distances(const Eigen::MatrixXd& standard,
                               const std::vector<Distribution>& sample,
                               const std::vector<std::size_t>& grains,
                               const std::vector<double>& weights) {
-  const Eigen::Map<const Eigen::VectorXd> chosen_weights(weights.data(), at(weights.size()));
-  Eigen::VectorXd chosen(at(grains.size()));
+  const Eigen::Map<const Eigen::VectorXd> chosen_weights(weights.data(), weights.size());
+  Eigen::VectorXd chosen(grains.size());
   std::vector<double> found;
   for (Index j = 0; j < standard.cols(); ++j) {
-    for (std::size_t k = 0; k < grains.size(); ++k) chosen[at(k)] = standard(at(grains[k]), j);
+    for (std::size_t k = 0; k < grains.size(); ++k) chosen[k] = standard(grains[k], j);
     found.push_back(distance_between(Distribution(chosen, chosen_weights), sample[j]).wasserstein);
   }
   return found;
@@ -277,9 +274,9 @@ std::vector<double> absolute_weights(const StepFunctions& steps, int which,
       }
     }
     const Fit fit(steps, which, widths);
-    Eigen::VectorXd right(at(choice.grains.size()));
+    Eigen::VectorXd right(choice.grains.size());
     for (std::size_t k = 0; k < choice.grains.size(); ++k) {
-      right[at(k)] = fit.right_side(choice.grains[k]);
+      right[k] = fit.right_side(choice.grains[k]);
     }
     now = scaled_to_one(nonnegative_minimum(matrix_of(fit, choice.grains), right,
                                             std::vector<bool>(choice.grains.size(), true)));
@@ -416,8 +413,7 @@ SampleTemplates choose_templates(const Eigen::MatrixXd& descriptors,
   for (std::size_t i = 0; i < masses.size(); ++i) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < templates.grains.size(); ++k) {
-      const double square =
-          (standard.row(at(i)) - standard.row(at(templates.grains[k]))).squaredNorm();
+      const double square = (standard.row(i) - standard.row(templates.grains[k])).squaredNorm();
       if (square < least) {
         least = square;
         templates.stands_for[i] = k;
