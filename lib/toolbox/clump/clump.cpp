@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <boost/pending/disjoint_sets.hpp>
 #include <functional>
 #include <utility>
 
@@ -107,40 +108,29 @@ double intersection_over_union(const IndexedMesh& grain, const std::vector<Spher
 
 /// Returns the number of groups of connected spheres.
 std::size_t group_count(const std::vector<Sphere>& spheres) {
-  std::vector<char> seen(spheres.size(), 0);
-  std::size_t groups = 0;
-  for (std::size_t start = 0; start < spheres.size(); ++start) {
-    if (seen[start] != 0) continue;
-    ++groups;
-    std::vector<std::size_t> open = {start};
-    seen[start] = 1;
-    while (!open.empty()) {
-      const Sphere& sphere = spheres[open.back()];
-      open.pop_back();
-      for (std::size_t other = 0; other < spheres.size(); ++other) {
-        if (seen[other] != 0 || sphere.distance(spheres[other].centre) > spheres[other].radius) {
-          continue;
-        }
-        seen[other] = 1;
-        open.push_back(other);
-      }
+  boost::disjoint_sets_with_storage<> linked(spheres.size());
+  std::size_t groups = spheres.size();
+  for (std::size_t a = 0; a < spheres.size(); ++a) {
+    for (std::size_t b = 0; b < a; ++b) {
+      if (spheres[a].distance(spheres[b].centre) > spheres[b].radius) continue;
+      if (linked.find_set(a) != linked.find_set(b)) --groups;
+      linked.union_set(a, b);
     }
   }
   return groups;
 }
 
-/// Returns the distance of a sphere's far end from the origin, at least `reach`.
-double reach_of(const std::vector<Sphere>& spheres, double reach) {
+/// Returns the error of first contact of spheres in the unit frame.
+ContactError contact_of(const std::vector<Sphere>& spheres, const IndexedMesh& unit,
+                        const Execution& execution) {
+  double reach = 0.0;
+  for (const Vector3& p : unit.points) reach = std::max(reach, p.norm());
   for (const Sphere& sphere : spheres) {
     reach = std::max(reach, sphere.centre.norm() + sphere.radius);
   }
-  return reach;
-}
-
-double reach_of(const IndexedMesh& mesh) {
-  double reach = 0.0;
-  for (const Vector3& p : mesh.points) reach = std::max(reach, p.norm());
-  return reach;
+  reach *= 1.2;
+  return contact_error(ContactHeights(spheres, reach, execution).distances(execution),
+                       ContactHeights(unit, reach, execution).distances(execution));
 }
 
 double contact_percent(const ContactError& contact) {
@@ -158,10 +148,7 @@ double error_percent(ClumpError of, const IndexedMesh& unit, const ShapeDescript
     return mass_error(mass_properties(describe_shape(surface, execution)), shape, 1.0)
         .inertia_percent;
   }
-  const double reach = 1.2 * reach_of(spheres, reach_of(unit));
-  return contact_percent(
-      contact_error(ContactHeights(spheres, reach, execution).distances(execution),
-                    ContactHeights(unit, reach, execution).distances(execution)));
+  return contact_percent(contact_of(spheres, unit, execution));
 }
 
 /// Returns what the allowed error is held against, in %, and its name.
@@ -220,11 +207,8 @@ void measure(const IndexedMesh& unit, const std::vector<Sphere>& spheres, const 
   result.largest_distance = frame.radius * distance.largest;
   execution.report(0.3, "Measuring the clump");
   result.intersection_over_union = intersection_over_union(unit, spheres, execution);
-  const double reach = 1.2 * reach_of(spheres, reach_of(unit));
   execution.report(0.5, "Measuring the clump");
-  const std::vector<double> scan = ContactHeights(unit, reach, execution).distances(execution);
-  result.contact =
-      contact_error(ContactHeights(spheres, reach, execution).distances(execution), scan);
+  result.contact = contact_of(spheres, unit, execution);
 }
 
 }  // namespace

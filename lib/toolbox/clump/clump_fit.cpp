@@ -48,6 +48,13 @@ std::vector<SurfaceSample> surface_samples(const IndexedMesh& mesh, std::size_t 
   return samples;
 }
 
+std::vector<Vector3> points_of(const std::vector<SurfaceSample>& samples) {
+  std::vector<Vector3> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
+  return points;
+}
+
 Sphere shrunk(const SurfaceSample& sample, const PointBlocks& blocks, double largest) {
   constexpr int most_steps = 30;
   constexpr double tolerance = 1e-6;
@@ -76,10 +83,7 @@ Sphere shrunk(const SurfaceSample& sample, const PointBlocks& blocks, double lar
 std::vector<Sphere> medial_spheres(const std::vector<SurfaceSample>& samples, std::size_t step,
                                    double largest, const Execution& execution) {
   constexpr std::size_t block = 32;
-  std::vector<Vector3> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples) points.push_back(sample.point);
-  const PointBlocks blocks(std::move(points));
+  const PointBlocks blocks(points_of(samples));
   std::vector<Sphere> spheres((samples.size() + step - 1) / step);
   execution.parallel_for(spheres.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -204,9 +208,6 @@ class Growth {
     // A sphere has four unknowns, and none of them may follow single samples.
     const std::vector<SurfaceSample> samples =
         surface_samples(grain, std::max<std::size_t>(4000, 80 * count));
-    std::vector<Vector3> points;
-    points.reserve(samples.size());
-    for (const SurfaceSample& sample : samples) points.push_back(sample.point);
     const std::size_t step = (samples.size() + most_candidates - 1) / most_candidates;
     const double smallest = smallest_in_fit(grain);
     for (Sphere& sphere : medial_spheres(samples, step, 1.001 * largest.upper_bound, execution_)) {
@@ -219,7 +220,7 @@ class Growth {
       candidates_.push_back(sphere);
     }
     const GridPoints grid = grid_points(grain, execution_);
-    SphereFit fit(points, grid.inside, grid.outside,
+    SphereFit fit(points_of(samples), grid.inside, grid.outside,
                   {smallest, std::max(smallest, most_bulge * largest.upper_bound),
                    options_.inside ? &depths_ : nullptr});
     fit.set_inner_weight(held_weight);
@@ -333,11 +334,9 @@ class Growth {
 
   /// Reduces the weight of spheres that bulge out to the weight of gaps.
   SphereFit let_down(SphereFit fit) const {
-    double weight = 0.5 * held_weight;
-    while (weight >= 1.0) {
+    for (double weight = 0.5 * held_weight; weight >= 1.0; weight *= 0.5) {
       fit.set_inner_weight(weight);
       sweep(fit, options_.inside ? 2 : 12);
-      weight *= 0.5;
     }
     return fit;
   }

@@ -79,10 +79,9 @@ class UnionGrid {
     for (const Sphere& sphere : spheres_) {
       Corner first;
       Corner last;
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const double from = (sphere.centre[axis] - sphere.radius - origin_[axis]) / spacing_;
-        const double to = (sphere.centre[axis] + sphere.radius - origin_[axis]) / spacing_;
+      for (int a = 0; a < 3; ++a) {
+        const double from = (sphere.centre[a] - sphere.radius - origin_[a]) / spacing_;
+        const double to = (sphere.centre[a] + sphere.radius - origin_[a]) / spacing_;
         first[a] = std::max<std::int64_t>(0, static_cast<std::int64_t>(std::floor(from)));
         last[a] = std::min(counts_[a] - 1, static_cast<std::int64_t>(std::ceil(to)));
       }
