@@ -134,9 +134,8 @@ Resolution resolution_of(const VolumeOptions& volume, double voxel_size, const I
 
 void append_voxel_lines(const JobFolder& folder, std::vector<std::string>& lines) {
   try {
-    for (const std::string& line : voxel_lines(read_grain_table(folder.file("shape", ".csv")))) {
-      lines.push_back(line);
-    }
+    const auto more = voxel_lines(read_grain_table(folder.file("shape", ".csv")));
+    lines.insert(lines.end(), more.begin(), more.end());
   } catch (const Error& error) {
     if (error.code() != ErrorCode::InvalidInput) throw;  // a table in which all grains failed
   }
@@ -210,13 +209,9 @@ std::string BodyGrains::row_of(std::size_t number, const std::string& file) cons
       std::to_string(body.pores),
       format_exact(body.pore_volume),
       std::to_string(body.boundary_edges)};
-  Vector3 low = body.mesh.points.front();
-  Vector3 high = low;
-  for (const Vector3& p : body.mesh.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  for (const Vector3& corner : {low, high}) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : body.mesh.points) box.extend(p);
+  for (const Vector3& corner : {box.min(), box.max()}) {
     for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
   }
   fields.push_back(std::to_string(body.mesh.points.size()));

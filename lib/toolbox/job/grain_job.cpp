@@ -358,6 +358,7 @@ GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, Grai
         return {job.make(grain)};
       },
       [&](const std::string& error) {
+        if (!job.failed) throw Error(ErrorCode::NumericalFailure, name + ": " + error);
         GrainRow row{{}, error};
         for (std::size_t level = 0; level < folders.size(); ++level) {
           for (std::string& record : job.failed(name, error)) {

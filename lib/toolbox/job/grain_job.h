@@ -54,7 +54,8 @@ struct GrainJob {
   /// Writes the files of a grain and returns its records: of each level, each table. Called on
   /// several threads at once. What it throws is the failure of the grain, see row_or_failure.
   std::function<std::vector<std::string>(GrainAtWork& grain)> make = {};
-  /// Returns the records of a grain that failed, for one level.
+  /// Returns the records of a grain that failed, for one level. Empty: the first failure ends the
+  /// run.
   std::function<std::vector<std::string>(const std::string& grain, const std::string& error)>
       failed = {};
 };

@@ -31,9 +31,7 @@ class GrainTooLarge : public std::bad_alloc {
 /// Thrown if a grain is abandoned because the run was stopped.
 struct GivenUp {};
 
-/// Works on the grains of a run, one grain per thread, and takes their rows in the order of the
-/// grains. Few rows wait for an earlier row, because grains far ahead of it are not begun. If
-/// memory is not enough for a grain, it is tried again while no other grain is worked on.
+/// The work of run_grains.
 class GrainQueue {
  public:
   GrainQueue(const GrainRun& run, const JobHost& host)
@@ -187,8 +185,7 @@ class GrainQueue {
 
 int thread_count(int asked, std::size_t grains) {
   const int all = asked > 0 ? asked : static_cast<int>(std::thread::hardware_concurrency());
-  return std::max(1,
-                  static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(all), grains)));
+  return std::max(1, static_cast<int>(std::min<std::size_t>(all, grains)));
 }
 
 /// Returns why a run was stopped, and what to do.

@@ -156,7 +156,7 @@ std::vector<std::string> lines_of(const Growing& growing, const GrainTable& tabl
   const std::size_t grown = table.grains.size();
   const RealNumbers sample = numbers_of_sample(growing, execution);
   const auto column = [&](const char* name) {
-    const auto values = table.values.col(static_cast<Eigen::Index>(table.index_of(name)));
+    const auto values = table.values.col(table.index_of(name));
     return std::vector<double>(values.begin(), values.end());
   };
   const auto distance = [&](const char* name, const std::vector<double>& of_sample) {
@@ -218,9 +218,6 @@ GrainJob job_of(const GrowJob& options, const Growing& growing) {
   job.is_kept = false;
   job.make = [&growing](GrainAtWork& grain) -> std::vector<std::string> {
     return {grown_record(growing, grain)};
-  };
-  job.failed = [](const std::string& grain, const std::string& error) -> std::vector<std::string> {
-    throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
   };
   return job;
 }

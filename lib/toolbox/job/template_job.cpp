@@ -70,7 +70,7 @@ std::string template_row(const DescribedSample& sample, const SampleTemplates& t
                                   format_exact(smallest),
                                   format_exact(largest)};
   for (Eigen::Index j = 0; j < sample.descriptors.cols(); ++j) {
-    row.push_back(format_exact(sample.descriptors(static_cast<Eigen::Index>(grain), j)));
+    row.push_back(format_exact(sample.descriptors(grain, j)));
   }
   return csv_record(row);
 }
@@ -142,9 +142,6 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
     write_mesh(template_mesh(mesh, grain.execution), folder.file_of(grain.name));
     return {
         template_row(sample, templates, grain.scan.place, grain.name, folder.name_of(grain.name))};
-  };
-  job.failed = [](const std::string& grain, const std::string& error) -> std::vector<std::string> {
-    throw Error(ErrorCode::NumericalFailure, grain + ": " + error);
   };
   return job;
 }
