@@ -68,30 +68,6 @@ IndexedMesh mesh_of(const Points& vertices, const py::object& faces) {
   return mesh;
 }
 
-py::array_t<double> array_of(const std::vector<Vector3>& points) {
-  py::array_t<double> array({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}});
-  auto rows = array.mutable_unchecked<2>();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (Eigen::Index k = 0; k < 3; ++k) rows(static_cast<py::ssize_t>(i), k) = points[i][k];
-  }
-  return array;
-}
-
-py::array_t<double> array_of(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
-py::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles) {
-  py::array_t<std::int32_t> array({static_cast<py::ssize_t>(triangles.size()), py::ssize_t{3}});
-  auto rows = array.mutable_unchecked<2>();
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      rows(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(k)) = triangles[i][k];
-    }
-  }
-  return array;
-}
-
 std::unique_ptr<LabelVolume> VolumeOfArray::open() const {
   VolumeArray numbers;
   numbers.numbers = array.data();

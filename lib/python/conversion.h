@@ -6,10 +6,13 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <array>
-#include <cstdint>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "toolbox/clump/clump_options.h"
@@ -40,10 +43,21 @@ IndexedMesh mesh_of(const Points& vertices, const pybind11::object& faces);
 /// Returns the mesh of a pair (vertices, faces). Throws TypeError for other types.
 IndexedMesh mesh_of_reference(const pybind11::object& reference);
 
-/// Arrays (n, 3), (n,) and (m, 3).
-pybind11::array_t<double> array_of(const std::vector<Vector3>& points);
-pybind11::array_t<double> array_of(const std::vector<double>& values);
-pybind11::array_t<std::int32_t> array_of(const std::vector<Triangle>& triangles);
+/// Returns an array (n, width) of rows of numbers, such as points and triangles.
+template <class Row>
+auto array_of(const std::vector<Row>& rows) {
+  using Number = std::decay_t<decltype(*std::declval<Row>().data())>;
+  const pybind11::ssize_t width = std::size(Row());
+  pybind11::array_t<Number> array({static_cast<pybind11::ssize_t>(rows.size()), width});
+  Number* next = array.mutable_data();
+  for (const Row& row : rows) next = std::copy(row.begin(), row.end(), next);
+  return array;
+}
+
+/// Returns an array (n,).
+inline pybind11::array_t<double> array_of(const std::vector<double>& values) {
+  return pybind11::array_t<double>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+}
 
 /// Returns the value of a name in upper or lower case, like the program: the paper's WSCVT-D is the
 /// key wscvt-d. Throws Error for other texts.

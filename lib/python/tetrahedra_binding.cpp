@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -24,14 +23,6 @@ namespace py = pybind11;
 
 namespace {
 
-py::array_t<std::int32_t> corners_of(const TetrahedralMesh& mesh) {
-  py::array_t<std::int32_t> corners(
-      {static_cast<py::ssize_t>(mesh.tetrahedra.size()), py::ssize_t{4}});
-  std::int32_t* next = corners.mutable_data();
-  for (const Tetrahedron& t : mesh.tetrahedra) next = std::copy(t.begin(), t.end(), next);
-  return corners;
-}
-
 py::dict filled(const std::function<TetrahedralMesh(const Execution&)>& fill,
                 const std::optional<std::filesystem::path>& output, int threads,
                 const py::object& progress) {
@@ -47,7 +38,7 @@ py::dict filled(const std::function<TetrahedralMesh(const Execution&)>& fill,
         py::array_t<std::int32_t>(static_cast<py::ssize_t>(mesh.bodies.size()), mesh.bodies.data());
   }
   result["vertices"] = array_of(mesh.surface.points);
-  result["tetrahedra"] = corners_of(mesh);
+  result["tetrahedra"] = array_of(mesh.tetrahedra);
   result["faces"] = array_of(mesh.surface.triangles);
   result["smallest_dihedral_degrees"] = mesh.smallest_dihedral;
   result["largest_dihedral_degrees"] = mesh.largest_dihedral;
