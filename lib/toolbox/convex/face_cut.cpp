@@ -79,7 +79,7 @@ std::vector<FaceEdges> faces_of(const std::vector<Vector3>& points, const FaceEd
   std::vector<double> areas;
   areas.reserve(loops.size());
   for (const auto& loop : loops) {
-    areas.push_back(doubled_area(points, loop.data(), loop.data() + loop.size()).dot(normal));
+    areas.push_back(doubled_area(points, loop).dot(normal));
   }
   std::vector<FaceEdges> holes(loops.size());
   for (std::size_t k = 0; k < loops.size(); ++k) {

@@ -30,6 +30,9 @@ void require_closed(const std::vector<Triangle>& triangles);
 /// Returns twice the area of closed loops, along their normal. There must be an edge.
 Vector3 doubled_area(const std::vector<Vector3>& points, const FaceEdge* first,
                      const FaceEdge* last);
+inline Vector3 doubled_area(const std::vector<Vector3>& points, const FaceEdges& edges) {
+  return doubled_area(points, edges.data(), edges.data() + edges.size());
+}
 
 /// Returns closed loops of directed edges, in the order of their first edges.
 std::vector<FaceEdges> loops_of(const FaceEdges& edges);

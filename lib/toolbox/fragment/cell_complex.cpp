@@ -46,10 +46,14 @@ struct CellComplex::Insertion {
   std::vector<char> visited;     ///< of the faces
 };
 
+void CellComplex::list_face(std::size_t f) {
+  cells_[faces_[f].front].faces.push_back(f);
+  if (faces_[f].is_wall()) cells_[faces_[f].back].faces.push_back(f);
+}
+
 void CellComplex::add_face(Face face) {
-  cells_[face.front].faces.push_back(faces_.size());
-  if (face.is_wall()) cells_[face.back].faces.push_back(faces_.size());
   faces_.push_back(std::move(face));
+  list_face(faces_.size() - 1);
 }
 
 void CellComplex::renew_faces(std::int32_t number) {
@@ -155,9 +159,7 @@ namespace {
 /// Returns the sixth part of a face's tetrahedra with the origin, its volume for a closed solid.
 double volume_share(const std::vector<Vector3>& points, const FaceEdges& edges,
                     const Vector3& origin) {
-  return (points[edges.front()[0]] - origin)
-             .dot(doubled_area(points, edges.data(), edges.data() + edges.size())) /
-         6.0;
+  return (points[edges.front()[0]] - origin).dot(doubled_area(points, edges)) / 6.0;
 }
 
 /// The connected pieces of all cells.
@@ -205,9 +207,7 @@ std::map<std::array<std::int32_t, 2>, double> wall_areas(const CellComplex& comp
     const CellComplex::Face& face = complex.faces()[f];
     if (face.edges.empty() || !face.is_wall()) continue;
     const auto& [front, back] = pieces.of_face[f];
-    const double area = 0.5 * doubled_area(complex.points(), face.edges.data(),
-                                           face.edges.data() + face.edges.size())
-                                  .norm();
+    const double area = 0.5 * doubled_area(complex.points(), face.edges).norm();
     areas[{front, back}] += area;
     areas[{back, front}] += area;
   }
@@ -288,10 +288,7 @@ CellComplex::Moved CellComplex::join_pieces() {
   }
   for (Cell& cell : cells_) cell.faces.clear();
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const Face& face = faces_[f];
-    if (face.edges.empty()) continue;
-    cells_[face.front].faces.push_back(f);
-    if (face.is_wall()) cells_[face.back].faces.push_back(f);
+    if (!faces_[f].edges.empty()) list_face(f);
   }
   return moved;
 }

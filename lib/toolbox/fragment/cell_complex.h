@@ -71,6 +71,7 @@ class CellComplex {
   }
   void insert(const CellSite& site);
   void cut_face(std::size_t f, Insertion& insertion);
+  void list_face(std::size_t f);  ///< in its cells
   void add_face(Face face);
   void renew_faces(std::int32_t number);
 

@@ -40,9 +40,7 @@ Eigen::VectorXd weight_changes(const CellComplex& complex, const std::vector<Cel
   double sum = 0.0;
   for (const CellComplex::Face& face : complex.faces()) {
     if (face.edges.empty() || !face.is_wall()) continue;
-    const double area = 0.5 * doubled_area(complex.points(), face.edges.data(),
-                                           face.edges.data() + face.edges.size())
-                                  .norm();
+    const double area = 0.5 * doubled_area(complex.points(), face.edges).norm();
     const double apart = (sites[face.front].point - sites[face.back].point).norm();
     const double rate = area / (2.0 * apart);
     rates(face.front, face.front) += rate;
