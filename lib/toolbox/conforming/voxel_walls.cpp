@@ -51,9 +51,8 @@ class WallMaker {
     for (std::size_t start = 0; start < 8; ++start) {
       if (block[start] < 0 || vertices[start] >= 0) continue;
       if (walls_.corners.size() >= std::numeric_limits<std::int32_t>::max() / 8) {
-        throw Error(ErrorCode::InvalidInput,
-                    "The walls of the grains have more than 268 million nodes. Give a part of the "
-                    "volume.");
+        refuse(
+            "The walls of the grains have more than 268 million nodes. Give a part of the volume.");
       }
       const auto vertex = static_cast<std::int32_t>(walls_.corners.size());
       walls_.corners.push_back(corner);

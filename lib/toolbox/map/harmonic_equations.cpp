@@ -29,7 +29,7 @@ constexpr std::size_t equation_block = 1024;
 using Vector = Eigen::VectorXd;
 
 Vector to_vector(const std::vector<double>& values) {
-  return Eigen::Map<const Vector>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<const Vector>(values.data(), values.size());
 }
 
 std::vector<double> to_array(const Vector& values) {
@@ -228,13 +228,10 @@ Vector probe(Eigen::Index size) {
 
 std::unique_ptr<HarmonicEquations> harmonic_equations(const WeightedDirections& points, int degree,
                                                       const Execution& execution) {
-  std::unique_ptr<HarmonicEquations> result;
   if (points.directions.size() <= maximum_stored_points) {
-    result = std::make_unique<StoredBasis>(points, degree);
-  } else {
-    result = std::make_unique<SpreadMoments>(points, degree, execution);
+    return std::make_unique<StoredBasis>(points, degree);
   }
-  return result;
+  return std::make_unique<SpreadMoments>(points, degree, execution);
 }
 
 double condition_of(const HarmonicEquations& equations, int degree, const Execution& execution) {
@@ -244,15 +241,12 @@ double condition_of(const HarmonicEquations& equations, int degree, const Execut
 
 double weighted_mean(const WeightedDirections& points, const std::vector<double>& values,
                      const Execution& execution) {
-  return execution.parallel_sum(values.size(), equation_block, 0.0,
-                                [&](std::size_t begin, std::size_t end) {
-                                  double part = 0.0;
-                                  for (std::size_t i = begin; i < end; ++i) {
-                                    part += points.weights[i] * values[i];
-                                  }
-                                  return part;
-                                }) /
-         (4.0 * pi);
+  const auto partial = [&](std::size_t begin, std::size_t end) {
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) part += points.weights[i] * values[i];
+    return part;
+  };
+  return execution.parallel_sum(values.size(), equation_block, 0.0, partial) / (4.0 * pi);
 }
 
 HarmonicLeastSquares least_squares(const HarmonicEquations& equations,

@@ -96,8 +96,7 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
   double area = 0.0;
   for (const double weight : quadrature.weights) area += weight;
   if (!(area > 0.0 && std::isfinite(area))) {
-    throw Error(ErrorCode::InvalidInput,
-                "The mapped surface has no area to fit a series to. Check the mesh first.");
+    refuse("The mapped surface has no area to fit a series to. Check the mesh first.");
   }
   WeightedDirections points{quadrature.directions, quadrature.weights};
   for (double& weight : points.weights) weight *= 4.0 * pi / area;

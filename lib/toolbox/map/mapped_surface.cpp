@@ -22,9 +22,8 @@ constexpr std::size_t mapped_block = 8192;
 constexpr std::size_t located_block = 1024;
 
 [[noreturn]] void refuse_directions(const std::string& what) {
-  throw Error(ErrorCode::InvalidInput,
-              "The mesh is not spread over the sphere: " + what +
-                  " Use the directions that map_to_sphere returns for this mesh.");
+  refuse("The mesh is not spread over the sphere: " + what +
+         " Use the directions that map_to_sphere returns for this mesh.");
 }
 
 }  // namespace

@@ -56,6 +56,8 @@ class MeshCollapse {
   /// Returns a half-edge that starts at a vertex of this stage.
   std::int32_t first_half_edge(std::int32_t vertex) const { return first_[vertex]; }
   std::int32_t valence(std::int32_t vertex) const { return valences_[vertex]; }
+  /// Returns the vertex to which a half-edge leads.
+  std::int32_t target(std::int32_t half_edge) const { return target_of(triangles_, half_edge); }
 
   /// Calls visit(half_edge) for the half-edges that leave a vertex, counter-clockwise.
   template <class Visit>
@@ -70,7 +72,6 @@ class MeshCollapse {
   /// Returns 1 for every triangle that does not exist at this stage.
   std::vector<char> absent_triangles() const;
   std::int32_t origin(std::int32_t half_edge) const { return origin_of(triangles_, half_edge); }
-  std::int32_t target(std::int32_t half_edge) const { return target_of(triangles_, half_edge); }
 
   std::vector<Vector3> points_;
   std::vector<Triangle> triangles_;

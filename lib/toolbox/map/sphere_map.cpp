@@ -130,11 +130,9 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
   if (forward.cross(backward).dot(o) < 0.0) along = -along;
   if (along.norm() < 1e-6) along = o.cross(forward - backward);
   along.normalize();
-  double step = 0.3 * size;
-  while (step > 1e-14) {
+  for (double step = 0.3 * size; step > 1e-14; step *= 0.5) {
     const Vector3 p = (o + step * along).normalized();
     if (is_in_kernel(p, ring)) return Insertion{p, true};
-    step *= 0.5;
   }
   return std::nullopt;
 }
@@ -224,7 +222,7 @@ class Embedding {
     fan_.improve(directions_[v]);
     if (mesh_.vertex_count() > fine_vertices) return;
     mesh_.visit_outgoing(v, [&](std::int32_t h) {
-      const std::int32_t u = target_of(mesh_.triangles(), h);
+      const std::int32_t u = mesh_.target(h);
       if (mesh_.valence(u) > largest_inserted_valence) return;
       load_fan(u);
       fan_.improve(directions_[u]);
@@ -236,7 +234,7 @@ class Embedding {
     distances_.clear();
     std::size_t apex = 0;
     mesh_.visit_outgoing(v, [&](std::int32_t h) {
-      const std::int32_t u = target_of(mesh_.triangles(), h);
+      const std::int32_t u = mesh_.target(h);
       if (u == neighbour) apex = ring_.size();
       ring_.push_back(directions_[u]);
       distances_.push_back((mesh_.points()[u] - mesh_.points()[v]).norm());
@@ -250,16 +248,15 @@ class Embedding {
     const double equilateral = 1.0 / std::sqrt(3.0);
     const double area = 4.0 * pi / static_cast<double>(mesh_.present_triangles().size());
     std::vector<std::int32_t> moved{neighbour};
-    mesh_.visit_outgoing(v,
-                         [&](std::int32_t h) { moved.push_back(target_of(mesh_.triangles(), h)); });
+    mesh_.visit_outgoing(v, [&](std::int32_t h) { moved.push_back(mesh_.target(h)); });
     for (int sweep = 0; sweep < 10; ++sweep) {
       for (const std::int32_t u : moved) {
         // The vertex is at its neighbour's position, so triangles with both have no image.
         const auto place = [&](std::int32_t x) { return directions_[x == v ? neighbour : x]; };
         fan_.clear();
         mesh_.visit_outgoing(u, [&](std::int32_t h) {
-          const std::int32_t q = target_of(mesh_.triangles(), h);
-          const std::int32_t r = target_of(mesh_.triangles(), next_half_edge(h));
+          const std::int32_t q = mesh_.target(h);
+          const std::int32_t r = mesh_.target(next_half_edge(h));
           const std::int32_t a = q == v ? neighbour : q;
           const std::int32_t b = r == v ? neighbour : r;
           if (a == b || a == u || b == u) return;
@@ -268,8 +265,8 @@ class Embedding {
         if (u == neighbour) {
           // Its own triangles and the vertex's triangles.
           mesh_.visit_outgoing(v, [&](std::int32_t h) {
-            const std::int32_t q = target_of(mesh_.triangles(), h);
-            const std::int32_t r = target_of(mesh_.triangles(), next_half_edge(h));
+            const std::int32_t q = mesh_.target(h);
+            const std::int32_t r = mesh_.target(next_half_edge(h));
             if (q == neighbour || r == neighbour) return;
             fan_.add(directions_[q], directions_[r], equilateral, equilateral, equilateral,
                      area * area);
@@ -334,8 +331,7 @@ class Embedding {
         load_fan(v, stored);
         if (fan_.improve(directions_[v]) < still) continue;
         awake_[v] = 1;
-        mesh_.visit_outgoing(v,
-                             [&](std::int32_t h) { awake_[target_of(mesh_.triangles(), h)] = 1; });
+        mesh_.visit_outgoing(v, [&](std::int32_t h) { awake_[mesh_.target(h)] = 1; });
       }
       if (sweep % 4 == 0) {
         const double after = energy();
