@@ -202,11 +202,10 @@ void add(DescribedSample& sample, const std::string& file, const std::vector<dou
 
 void fill(DescribedSample& sample, const std::vector<std::vector<double>>& rows,
           std::size_t columns) {
-  sample.descriptors.resize(static_cast<Eigen::Index>(rows.size()),
-                            static_cast<Eigen::Index>(columns));
+  sample.descriptors.resize(rows.size(), columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < columns; ++j) {
-      sample.descriptors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
+      sample.descriptors(i, j) = rows[i][j];
     }
   }
 }
@@ -214,7 +213,7 @@ void fill(DescribedSample& sample, const std::vector<std::vector<double>>& rows,
 /// Throws for a descriptor that is equal for all grains, such as the convexity of ellipsoids.
 void check_choice(const DescribedSample& sample, const std::vector<std::string>& keys) {
   for (std::size_t j = 0; j < keys.size() && sample.descriptors.rows() > 1; ++j) {
-    const auto column = sample.descriptors.col(static_cast<Eigen::Index>(j));
+    const auto column = sample.descriptors.col(j);
     const double largest = column.cwiseAbs().maxCoeff();
     if (column.maxCoeff() - column.minCoeff() > 1e-11 * largest) continue;
     refuse("The descriptor \"" + keys[j] +
@@ -260,8 +259,7 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
     std::vector<double> values;
     values.reserve(columns.size());
     for (const std::size_t column : columns) {
-      values.push_back(
-          table.values(static_cast<Eigen::Index>(grain), static_cast<Eigen::Index>(column)));
+      values.push_back(table.values(grain, column));
     }
     values.front() = diameter_of(values.front());
     const bool is_whole = std::all_of(values.begin(), values.end(),
