@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -21,17 +22,6 @@ namespace py = pybind11;
 
 namespace {
 
-py::array_t<double> array_of_spheres(const std::vector<Sphere>& spheres) {
-  py::array_t<double> array({static_cast<py::ssize_t>(spheres.size()), py::ssize_t{4}});
-  auto rows = array.mutable_unchecked<2>();
-  for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-    const Sphere& sphere = spheres[k];
-    for (py::ssize_t axis = 0; axis < 3; ++axis) rows(k, axis) = sphere.centre[axis];
-    rows(k, 3) = sphere.radius;
-  }
-  return array;
-}
-
 py::object clump(const Points& vertices, const py::object& faces, int threads,
                  const py::object& progress, const py::kwargs& given) {
   const ClumpOptions options = clump_options_of(given);
@@ -40,7 +30,9 @@ py::object clump(const Points& vertices, const py::object& faces, int threads,
     return make_clump(std::move(scan), options, execution);
   });
   py::object report = parsed(clump_json(result));
-  report["spheres"] = array_of_spheres(result.spheres);
+  report["spheres"] = column(result.spheres, [](const Sphere& s) {
+    return std::array{s.centre.x(), s.centre.y(), s.centre.z(), s.radius};
+  });
   return report;
 }
 

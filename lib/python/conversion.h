@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -43,20 +44,37 @@ IndexedMesh mesh_of(const Points& vertices, const pybind11::object& faces);
 /// Returns the mesh of a pair (vertices, faces). Throws TypeError for other types.
 IndexedMesh mesh_of_reference(const pybind11::object& reference);
 
-/// Returns an array (n, width) of rows of numbers, such as points and triangles.
+/// Returns an array (n,) of numbers, or (n, width) of rows of numbers, such as points and
+/// triangles.
 template <class Row>
 auto array_of(const std::vector<Row>& rows) {
-  using Number = std::decay_t<decltype(*std::declval<Row>().data())>;
-  const pybind11::ssize_t width = std::size(Row());
-  pybind11::array_t<Number> array({static_cast<pybind11::ssize_t>(rows.size()), width});
-  Number* next = array.mutable_data();
-  for (const Row& row : rows) next = std::copy(row.begin(), row.end(), next);
-  return array;
+  const auto count = static_cast<pybind11::ssize_t>(rows.size());
+  if constexpr (std::is_arithmetic_v<Row>) {
+    return pybind11::array_t<Row>(count, rows.data());
+  } else {
+    using Number = std::decay_t<decltype(*std::declval<Row>().data())>;
+    const pybind11::ssize_t width = std::size(Row());
+    pybind11::array_t<Number> array({count, width});
+    Number* next = array.mutable_data();
+    for (const Row& row : rows) next = std::copy(row.begin(), row.end(), next);
+    return array;
+  }
 }
 
-/// Returns an array (n,).
-inline pybind11::array_t<double> array_of(const std::vector<double>& values) {
-  return pybind11::array_t<double>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+/// Returns an array with a number or a row for each item: its member, or what `get` returns of it.
+template <class Item, class Get>
+auto column(const std::vector<Item>& items, const Get& get) {
+  using Value = std::decay_t<std::invoke_result_t<const Get&, const Item&>>;
+  if constexpr (std::is_arithmetic_v<Value>) {
+    pybind11::array_t<Value> values(static_cast<pybind11::ssize_t>(items.size()));
+    Value* next = values.mutable_data();
+    for (const Item& item : items) *next++ = std::invoke(get, item);
+    return values;
+  } else {
+    std::vector<Value> rows;
+    for (const Item& item : items) rows.push_back(std::invoke(get, item));
+    return array_of(rows);
+  }
 }
 
 /// Returns the value of a name in upper or lower case, like the program: the paper's WSCVT-D is the

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
@@ -19,23 +18,6 @@ namespace wscvt::python {
 namespace py = pybind11;
 
 namespace {
-
-/// Returns an array of a member of each item.
-template <class Item, class Get>
-auto column(const std::vector<Item>& items, const Get& get) {
-  using Value = decltype(get(items[0]));
-  py::array_t<Value> values(static_cast<py::ssize_t>(items.size()));
-  for (std::size_t k = 0; k < items.size(); ++k) values.mutable_data()[k] = get(items[k]);
-  return values;
-}
-
-template <class Item>
-py::array_t<double> vectors(const std::vector<Item>& items, Vector3 Item::*member) {
-  std::vector<Vector3> values;
-  values.reserve(items.size());
-  for (const Item& item : items) values.push_back(item.*member);
-  return array_of(values);
-}
 
 /// Returns the array's number of a label.
 std::int64_t number_of(const Fabric& fabric, Label label) {
@@ -50,20 +32,18 @@ py::dict contacts_of(const Fabric& fabric) {
   py::dict dict;
   dict["first"] = column(all, [&](const FabricContact& c) { return label(c.first); });
   dict["second"] = column(all, [&](const FabricContact& c) { return label(c.second); });
-  dict["contact"] = column(all, [](const FabricContact& c) { return c.is_contact; });
+  dict["contact"] = column(all, &FabricContact::is_contact);
   dict["faces"] =
       column(all, [](const FabricContact& c) { return static_cast<std::int64_t>(c.faces); });
-  dict["raw_area"] = column(all, [](const FabricContact& c) { return c.raw_area; });
-  dict["area"] = column(all, [](const FabricContact& c) { return c.area; });
-  dict["area_uncertainty"] = column(all, [](const FabricContact& c) { return c.area_uncertainty; });
-  dict["centre"] = vectors(all, &FabricContact::centre);
-  dict["centre_uncertainty"] =
-      column(all, [](const FabricContact& c) { return c.centre_uncertainty; });
-  dict["normal"] = vectors(all, &FabricContact::normal);
-  dict["normal_uncertainty"] =
-      column(all, [](const FabricContact& c) { return c.normal_uncertainty; });
-  dict["branch"] = vectors(all, &FabricContact::branch);
-  dict["at_border"] = column(all, [](const FabricContact& c) { return c.at_border; });
+  dict["raw_area"] = column(all, &FabricContact::raw_area);
+  dict["area"] = column(all, &FabricContact::area);
+  dict["area_uncertainty"] = column(all, &FabricContact::area_uncertainty);
+  dict["centre"] = column(all, &FabricContact::centre);
+  dict["centre_uncertainty"] = column(all, &FabricContact::centre_uncertainty);
+  dict["normal"] = column(all, &FabricContact::normal);
+  dict["normal_uncertainty"] = column(all, &FabricContact::normal_uncertainty);
+  dict["branch"] = column(all, &FabricContact::branch);
+  dict["at_border"] = column(all, &FabricContact::at_border);
   return dict;
 }
 
@@ -73,12 +53,12 @@ py::dict grains_of(const Fabric& fabric) {
   py::dict dict;
   dict["label"] = column(all, [&](const FabricGrain& g) { return number_of(fabric, g.label); });
   dict["voxels"] = column(all, [&](const FabricGrain& g) { return whole(g.voxels); });
-  dict["volume"] = column(all, [](const FabricGrain& g) { return g.volume; });
-  dict["centre"] = vectors(all, &FabricGrain::centre);
+  dict["volume"] = column(all, &FabricGrain::volume);
+  dict["centre"] = column(all, &FabricGrain::centre);
   dict["touching"] = column(all, [&](const FabricGrain& g) { return whole(g.touching); });
   dict["contacts"] = column(all, [&](const FabricGrain& g) { return whole(g.contacts); });
-  dict["contact_area"] = column(all, [](const FabricGrain& g) { return g.contact_area; });
-  dict["at_border"] = column(all, [](const FabricGrain& g) { return g.at_border; });
+  dict["contact_area"] = column(all, &FabricGrain::contact_area);
+  dict["at_border"] = column(all, &FabricGrain::at_border);
   return dict;
 }
 

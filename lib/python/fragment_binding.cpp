@@ -19,36 +19,19 @@ namespace py = pybind11;
 namespace {
 
 py::dict report_of(const Fragments& result) {
-  std::vector<double> volumes;
-  std::vector<double> excess;
-  std::vector<double> surfaces;
-  std::vector<Vector3> centroids;
-  for (const Fragment& fragment : result.list) {
-    volumes.push_back(fragment.mass.volume);
-    excess.push_back(fragment.hull_excess_percent);
-    surfaces.push_back(fragment.surface_area);
-    centroids.push_back(fragment.mass.centroid);
-  }
+  const std::vector<CommonWall>& walls = result.contacts;
   py::list pairs;
-  std::vector<double> areas;
-  std::vector<Vector3> centres;
-  std::vector<Vector3> normals;
-  for (const CommonWall& contact : result.contacts) {
-    pairs.append(py::make_tuple(contact.first, contact.second));
-    areas.push_back(contact.area);
-    centres.push_back(contact.centre);
-    normals.push_back(contact.normal);
-  }
+  for (const CommonWall& wall : walls) pairs.append(py::make_tuple(wall.first, wall.second));
   py::dict contacts;
   contacts["fragments"] = pairs;
-  contacts["area"] = array_of(areas);
-  contacts["centre"] = array_of(centres);
-  contacts["normal"] = array_of(normals);
+  contacts["area"] = column(walls, &CommonWall::area);
+  contacts["centre"] = column(walls, &CommonWall::centre);
+  contacts["normal"] = column(walls, &CommonWall::normal);
   py::dict report;
-  report["volume"] = array_of(volumes);
-  report["centroid"] = array_of(centroids);
-  report["surface_area"] = array_of(surfaces);
-  report["hull_excess_percent"] = array_of(excess);
+  report["volume"] = column(result.list, [](const Fragment& f) { return f.mass.volume; });
+  report["centroid"] = column(result.list, [](const Fragment& f) { return f.mass.centroid; });
+  report["surface_area"] = column(result.list, &Fragment::surface_area);
+  report["hull_excess_percent"] = column(result.list, &Fragment::hull_excess_percent);
   report["contacts"] = contacts;
   report["moved_pieces"] = result.moved_pieces;
   report["moved_percent"] = result.moved_percent;

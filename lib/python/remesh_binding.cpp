@@ -60,9 +60,7 @@ void require_whole(const Remesh& one, const std::string& wanted) {
 
 SimulationOptions simulation_options(const std::string& frame, double scale, double size) {
   SimulationOptions options;
-  options.frame.frame = value_of_name<Frame>(frame);
-  options.frame.scale = scale;
-  options.frame.size = size;
+  options.frame = frame_of(frame, scale, size);
   check_simulation_options(options);
   return options;
 }
@@ -105,18 +103,14 @@ py::array node_array(const Remesh& one, const std::string& frame, double scale, 
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "area"}) {
     fields.append(py::make_tuple(name, "f8"));
   }
-  py::array_t<double> rows({static_cast<py::ssize_t>(table.areas.size()), py::ssize_t{7}});
-  auto row = rows.mutable_unchecked<2>();
+  std::vector<std::array<double, 7>> rows;
   for (std::size_t i = 0; i < table.areas.size(); ++i) {
-    const auto k = static_cast<py::ssize_t>(i);
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      row(k, axis) = table.mesh.points[i][axis];
-      row(k, 3 + axis) = table.normals[i][axis];
-    }
-    row(k, 6) = table.areas[i];
+    const Vector3& p = table.mesh.points[i];
+    const Vector3& n = table.normals[i];
+    rows.push_back({p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), table.areas[i]});
   }
   const py::object columns = py::module_::import("numpy").attr("dtype")(fields);
-  return rows.attr("view")(columns).attr("reshape")(-1);
+  return array_of(rows).attr("view")(columns).attr("reshape")(-1);
 }
 
 void write_node_file(const Remesh& one, const std::filesystem::path& path, const std::string& frame,

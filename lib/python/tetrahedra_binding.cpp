@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -33,10 +32,7 @@ py::dict filled(const std::function<TetrahedralMesh(const Execution&)>& fill,
     return made;
   });
   py::dict result;
-  if (!mesh.names.empty()) {
-    result["bodies"] =
-        py::array_t<std::int32_t>(static_cast<py::ssize_t>(mesh.bodies.size()), mesh.bodies.data());
-  }
+  if (!mesh.names.empty()) result["bodies"] = array_of(mesh.bodies);
   result["vertices"] = array_of(mesh.surface.points);
   result["tetrahedra"] = array_of(mesh.tetrahedra);
   result["faces"] = array_of(mesh.surface.triangles);

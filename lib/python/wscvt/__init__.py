@@ -56,11 +56,19 @@ def _call(function, /, *arguments, **options):
     raise TypeError(f"An argument of {name} has a wrong type: {types}. help(wscvt.{name}) says what they are.")
 
 
-def _number_second(faces, number):
-    """Returns the faces and a number: f("scan.ply", 500) means f("scan.ply", None, 500)."""
+def _faces_before(name, number, faces, options):
+    """Adds a given number to the options and returns the faces: f("scan.ply", 500) means
+    f("scan.ply", None, 500)."""
     if isinstance(faces, numbers.Integral) and number is None:
-        return None, faces
-    return faces, number
+        faces, number = None, faces
+    if number is not None:
+        options[name] = number
+    return faces
+
+
+def _along_axes(voxel_size):
+    """Returns a voxel's size along x, y and z, of one length or of three."""
+    return (voxel_size,) * 3 if isinstance(voxel_size, numbers.Real) else voxel_size
 
 
 def _arrays(mesh, faces=None):
@@ -102,9 +110,7 @@ def remesh(vertices, faces=None, nodes=None, **options):
     "cancelled"): InputError, a ValueError, for unusable input; FileError, an OSError, for a file;
     MissingFileError, a FileNotFoundError. Raises TypeError for unknown options.
     """
-    faces, nodes = _number_second(faces, nodes)
-    if nodes is not None:
-        options["nodes"] = nodes
+    faces = _faces_before("nodes", nodes, faces, options)
     if isinstance(vertices, (str, os.PathLike)):
         options.setdefault("source", os.path.basename(vertices))
     return _call(_wscvt.remesh, *_arrays(vertices, faces), **options)
@@ -188,8 +194,8 @@ def batch(scans, nodes=None, *, output=None, threads=0, **options):
             nodes = options["levels"][-1]
         if nodes is not None:
             options["nodes"] = nodes
-        if isinstance(options.get("voxel_size"), numbers.Real):
-            options["voxel_size"] = (options["voxel_size"],) * 3
+        if "voxel_size" in options:
+            options["voxel_size"] = _along_axes(options["voxel_size"])
         return _call(_wscvt._batch, _inputs(scans), output, threads=threads, **options)
     return _batch(scans, nodes, threads, options)
 
@@ -270,9 +276,7 @@ def segment(scan, voxel_size=1.0, **options):
     peaks. Issues a UserWarning for each sign of a wrong result. Raises Error for a volume of one
     value and if no grain is left.
     """
-    if isinstance(voxel_size, numbers.Real):
-        voxel_size = (voxel_size,) * 3
-    return _call(_wscvt.segment, scan, voxel_size, **options)
+    return _call(_wscvt.segment, scan, _along_axes(voxel_size), **options)
 
 
 def extract(labels, voxel_size=1.0, **options):
@@ -300,9 +304,7 @@ def extract(labels, voxel_size=1.0, **options):
     the volume of its voxels, with pores filled. Raises Error, also for labels that are not whole
     numbers, and TypeError for what is no array of numbers.
     """
-    if isinstance(voxel_size, numbers.Real):
-        voxel_size = (voxel_size,) * 3
-    return _call(_wscvt.extract, labels, voxel_size, **options)
+    return _call(_wscvt.extract, labels, _along_axes(voxel_size), **options)
 
 
 def fabric(labels, voxel_size=1.0, *, scan=None, **options):
@@ -325,9 +327,7 @@ def fabric(labels, voxel_size=1.0, *, scan=None, **options):
     "branch_tensor" are (3, 3). "anisotropy", "coordination" and "blur" (length, or None) are
     numbers. Raises Error as extract does.
     """
-    if isinstance(voxel_size, numbers.Real):
-        voxel_size = (voxel_size,) * 3
-    return _call(_wscvt.fabric, labels, voxel_size, scan=scan, **options)
+    return _call(_wscvt.fabric, labels, _along_axes(voxel_size), scan=scan, **options)
 
 
 def clump(vertices, faces=None, count=None, *, output=None, **options):
@@ -355,9 +355,7 @@ def clump(vertices, faces=None, count=None, *, output=None, **options):
     The dictionary is the JSON report of "wscvt clump". Its "spheres" are an array (k, 4) of x, y, z
     and radius. Raises Error, and TypeError for unknown options.
     """
-    faces, count = _number_second(faces, count)
-    if count is not None:
-        options["count"] = count
+    faces = _faces_before("count", count, faces, options)
     if output is not None:
         return _call(_wscvt._clump_files, _inputs(vertices), output, **options)
     return _call(_wscvt.clump, *_arrays(vertices, faces), **options)
@@ -526,9 +524,7 @@ def convex(vertices, triangles=None, /, count=None, *, output=None, **options):
     grain, volume, and the grain's mass properties at unit density. Raises Error, and TypeError for
     unknown options.
     """
-    triangles, count = _number_second(triangles, count)
-    if count is not None:
-        options["count"] = count
+    triangles = _faces_before("count", count, triangles, options)
     if output is not None:
         return _call(_wscvt._convex_files, _inputs(vertices), output, **options)
     return _call(_wscvt.convex, *_arrays(vertices, triangles), **options)
@@ -559,9 +555,7 @@ def fragment(vertices, faces=None, count=None, *, near=None, **options):
     moved_pieces and moved_percent (of the volume) say what joined a neighbour because a cell had
     several pieces. Two neighbours have the same triangles on their wall. Raises Error.
     """
-    faces, count = _number_second(faces, count)
-    if count is not None:
-        options["count"] = count
+    faces = _faces_before("count", count, faces, options)
     if near is not None:
         options["near"] = numpy.atleast_2d(numpy.asarray(near, dtype=float))
     return _call(_wscvt.fragment, *_arrays(vertices, faces), **options)
@@ -661,11 +655,8 @@ def templates(descriptors, masses, count=20, *, seed=1, threads=0, progress=None
     and stands_for, for each grain the nearest row of the table.
     """
     parts = _wscvt.templates_of(_matrix(descriptors), list(masses), count, seed, threads, progress)
-    table = numpy.empty(len(parts["grains"]), [("grain", "i8"), ("weight_by_number", "f8"),
-                                               ("weight_by_mass", "f8")])
-    table["grain"] = parts["grains"]
-    table["weight_by_number"] = parts["by_number"]
-    table["weight_by_mass"] = parts["by_mass"]
+    table = numpy.array([*zip(parts["grains"], parts["by_number"], parts["by_mass"])],
+                        [("grain", "i8"), ("weight_by_number", "f8"), ("weight_by_mass", "f8")])
     return table, {"by_number": parts["distance_by_number"], "by_mass": parts["distance_by_mass"],
                    "random_by_number": parts["random_by_number"],
                    "random_by_mass": parts["random_by_mass"], "stands_for": parts["stands_for"]}
