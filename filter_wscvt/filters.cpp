@@ -136,16 +136,6 @@ class RunOnDocument {
   Layers& layers_;
 };
 
-/// "A", "A and B", "A, B and C".
-std::string enumerated(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (k > 0) text += k + 1 < names.size() ? ", " : " and ";
-    text += names[k];
-  }
-  return text;
-}
-
 /// Returns a sentence about parameters without a value, if there are any. Dialogs give all
 /// parameters. Scripts may omit some, and hosts silently drop values that they cannot read.
 std::optional<std::string> remark_on_missing(const ParameterList& parameters,
@@ -160,10 +150,10 @@ std::optional<std::string> remark_on_missing(const ParameterList& parameters,
     return "The script has no readable parameter. All parameters have their defaults.";
   // A script with only the changed parameters lacks many.
   if (given.size() < missing.size()) {
-    return "Only " + enumerated(given) +
+    return "Only " + enumerated(given, " and ") +
            " could be read from the script. All other parameters have their defaults.";
   }
-  return enumerated(missing) + (missing.size() == 1 ? " is" : " are") +
+  return enumerated(missing, " and ") + (missing.size() == 1 ? " is" : " are") +
          " missing from the script or not readable. The default was used.";
 }
 

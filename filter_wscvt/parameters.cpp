@@ -18,10 +18,11 @@ double checked_value(const FilterParameter& parameter, double value) {
 
   std::string sentence = "Parameter " + parameter.name + " is " + typed_text(value) + ". Give ";
   if (parameter.kind == ParameterKind::Choice) {
-    for (std::size_t k = 0; k < parameter.choices.size(); ++k) {
-      if (k > 0) sentence += k + 1 < parameter.choices.size() ? ", " : " or ";
-      sentence += std::to_string(k) + " (" + parameter.choices[k] + ")";
+    std::vector<std::string> choices;
+    for (const std::string& choice : parameter.choices) {
+      choices.push_back(std::to_string(choices.size()) + " (" + choice + ")");
     }
+    sentence += enumerated(choices, " or ");
   } else {
     sentence += parameter.kind == ParameterKind::Real ? "a number from " : "a whole number from ";
     sentence += typed_text(parameter.minimum) + " to " + typed_text(parameter.maximum);
@@ -45,6 +46,15 @@ ParameterValue checked(const FilterParameter& parameter, const ParameterValue& v
 }
 
 }  // namespace
+
+std::string enumerated(const std::vector<std::string>& names, const char* before_last) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (k > 0) text += k + 1 < names.size() ? ", " : before_last;
+    text += names[k];
+  }
+  return text;
+}
 
 bool holds_text(ParameterKind kind) { return kind == ParameterKind::Text || holds_file(kind); }
 

@@ -31,14 +31,9 @@ void check_descriptor_report_file(const std::string& path, bool with_reference) 
 void check_extension(const std::string& path, const std::vector<std::string>& extensions,
                      const std::string& parameter) {
   if (std::find(extensions.begin(), extensions.end(), ending_of(path)) != extensions.end()) return;
-  std::string wanted;
-  for (const std::string& extension : extensions) {
-    if (!wanted.empty()) wanted += extension == extensions.back() ? " or " : ", ";
-    wanted += extension;
-  }
   refuse("Parameter " + parameter + " is '" + path +
-         "', but the extension does not fit. Give a file name that ends in " + wanted +
-         ". Nothing was changed.");
+         "', but the extension does not fit. Give a file name that ends in " +
+         enumerated(extensions, " or ") + ". Nothing was changed.");
 }
 
 void check_output_file(const std::string& path, const std::vector<std::string>& extensions,
