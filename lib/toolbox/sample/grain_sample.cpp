@@ -208,6 +208,13 @@ void note_few_voxels(GrainSample& sample) {
 
 }  // namespace
 
+int SampleOptions::repetitions_for(std::size_t grains, std::size_t most_at_full) const {
+  constexpr int least = 200;
+  if (grains <= most_at_full || repetitions <= least) return repetitions;
+  const double share = static_cast<double>(most_at_full) / static_cast<double>(grains);
+  return std::max(least, static_cast<int>(repetitions * share));
+}
+
 GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   if (options.density) require_in_range(*options.density, density_option);
   require_in_range(options.repetitions, repetitions_option);

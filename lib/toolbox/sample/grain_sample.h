@@ -52,6 +52,9 @@ struct SampleOptions {
   std::optional<double> density;
   std::uint64_t seed = 1;  ///< of the random numbers for intervals and p
   int repetitions = 1000;  ///< 0: no intervals and no p
+
+  /// Returns fewer repetitions for more than so many grains, but at least 200 of them.
+  int repetitions_for(std::size_t grains, std::size_t most_at_full) const;
 };
 
 inline constexpr NumberOption<double> density_option = {

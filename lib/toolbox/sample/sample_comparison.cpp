@@ -20,7 +20,6 @@ namespace {
 constexpr double no_comparison = std::numeric_limits<double>::quiet_NaN();
 /// The cost of a division per descriptor grows with n: above this many grains fewer are made.
 constexpr std::size_t most_grains_permuted = 4000;
-constexpr int least_permutations = 200;
 
 /// Divisions that are measured at once: their numbers fill the registers of a processor.
 constexpr std::size_t partings_at_once = 4;
@@ -140,14 +139,6 @@ void part(std::uint64_t seed, std::size_t first_stream, std::size_t of_one, Part
 /// Rounding makes equal divisions differ in their last bits.
 bool is_as_far(double parted, double own) { return parted >= own * (1.0 - rounding); }
 
-std::size_t partings_for(std::size_t grains, int asked) {
-  if (grains <= most_grains_permuted || asked <= least_permutations) {
-    return static_cast<std::size_t>(asked);
-  }
-  const double share = static_cast<double>(most_grains_permuted) / static_cast<double>(grains);
-  return static_cast<std::size_t>(std::max<double>(least_permutations, asked * share));
-}
-
 SampleDistance first_lane(const PartingDistances& distances) {
   return {distances.kolmogorov[0], distances.wasserstein[0], no_comparison, no_comparison};
 }
@@ -169,7 +160,8 @@ void count_farther(const PartingDistances& parted, const SampleDistance& own, st
 void test_rows(const std::vector<PooledColumn>& columns, std::size_t of_one, std::size_t all,
                const SampleOptions& options, const Execution& execution,
                std::vector<ColumnComparison>& rows) {
-  const std::size_t partings = partings_for(all, options.repetitions);
+  const auto partings =
+      static_cast<std::size_t>(options.repetitions_for(all, most_grains_permuted));
   if (partings == 0) return;
   const std::size_t groups = (partings + partings_at_once - 1) / partings_at_once;
   std::vector<Farther> farther(groups * columns.size(), Farther{});

@@ -22,7 +22,6 @@ constexpr double normal_95 = 1.959963984540054;
 
 /// The cost of a repetition grows with n: above this many grains fewer are made.
 constexpr std::size_t most_grains_at_full = 20000;
-constexpr int least_repetitions = 200;
 
 /// Repeated statistics of a column: mean, deviation, 10, 50 and 90 %.
 constexpr std::size_t column_numbers = 5;
@@ -197,12 +196,6 @@ Estimate estimate_of(double value, std::vector<double>& repeated) {
   return {value, all.quantile(0.025), all.quantile(0.975)};
 }
 
-int repetitions_for(std::size_t grains, int asked) {
-  if (grains <= most_grains_at_full || asked <= least_repetitions) return asked;
-  const double share = static_cast<double>(most_grains_at_full) / static_cast<double>(grains);
-  return std::max(least_repetitions, static_cast<int>(asked * share));
-}
-
 /// Draws as many grains as there are, with replacement, in each lane from its own stream.
 void draw(std::uint64_t seed, std::size_t first_stream, std::size_t grains, Draws& draws) {
   draws.assign(grains, {});
@@ -313,7 +306,7 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
     }
   });
   SampleStatistics statistics;
-  statistics.repetitions = repetitions_for(grains, options.repetitions);
+  statistics.repetitions = options.repetitions_for(grains, most_grains_at_full);
   const std::vector<Estimate> estimates = bootstrap(
       all, grains, static_cast<std::size_t>(statistics.repetitions), options.seed, execution);
   const Estimate* at = estimates.data();
