@@ -36,19 +36,15 @@ GreyEdges edges_of(const std::vector<std::uint16_t>& grey, const std::vector<std
   const int middle = (least + largest) / 2;
   const int band = std::max(1, (largest - least) / 20);
   GreyEdges edges;
-  const auto width = static_cast<std::size_t>(sizes[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(sizes[1]);
+  const auto [next_x, width, slice] = VoxelGrid(sizes).steps;
+  const auto is_outside = [&](std::size_t voxel) { return is_marked(outside, voxel); };
   for (std::size_t k = slice; k + slice < grey.size(); ++k) {
     const std::size_t in_slice = k % slice;
     const std::size_t x = in_slice % width;
     if (x == 0 || x + 1 == width || in_slice < width || in_slice + width >= slice) continue;
-    const std::array<std::size_t, 6> beside = {k + 1,     k + width, k + slice,
-                                               k - slice, k - width, k - 1};
-    const auto is_outside = [&](std::size_t voxel) { return outside[voxel] != 0; };
-    if (!outside.empty() &&
-        (is_outside(k) || std::any_of(beside.begin(), beside.end(), is_outside))) {
-      continue;
-    }
+    const std::array<std::size_t, 6> beside = {k + next_x, k + width, k + slice,
+                                               k - slice,  k - width, k - next_x};
+    if (is_outside(k) || std::any_of(beside.begin(), beside.end(), is_outside)) continue;
     const int here = grey[k];
     int darkest = grey[beside[0]];
     int brightest = darkest;

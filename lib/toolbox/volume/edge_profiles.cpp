@@ -88,9 +88,6 @@ class EdgeLines {
     return sign_ * (static_cast<double>(volume_.grey[static_cast<std::size_t>(k)]) - volume_.level);
   }
   std::uint32_t label(std::ptrdiff_t k) const { return labels_[static_cast<std::size_t>(k)]; }
-  bool is_left_out(std::ptrdiff_t k) const {
-    return !volume_.left_out.empty() && volume_.left_out[static_cast<std::size_t>(k)] != 0;
-  }
 
   /// Returns how much a line along an axis is along the gradient.
   double cosine(std::ptrdiff_t k, std::size_t axis) const {
@@ -127,9 +124,9 @@ class EdgeLines {
     const int size = volume_.counts[axis];
     constexpr int farthest = 8;
     const auto add = [&](int away) {
-      const std::ptrdiff_t other = k + away * step;
-      if (is_left_out(other)) return false;
-      profiles_[inside].add(scale * (away - surface), scan_[static_cast<std::size_t>(other)]);
+      const auto other = static_cast<std::size_t>(k + away * step);
+      if (is_marked(volume_.left_out, other)) return false;
+      profiles_[inside].add(scale * (away - surface), scan_[other]);
       return true;
     };
     const auto is_in = [&](int away) {

@@ -89,7 +89,7 @@ double space_of(const std::vector<std::uint16_t>& grey, const std::vector<std::u
                 const std::vector<std::uint32_t>& grown, double otherwise) {
   std::vector<std::uint16_t> values;
   for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (grown[k] == 0 && (left_out.empty() || left_out[k] == 0)) values.push_back(grey[k]);
+    if (grown[k] == 0 && !is_marked(left_out, k)) values.push_back(grey[k]);
   }
   constexpr std::size_t few = 1000;
   if (values.size() < few) return otherwise;

@@ -172,17 +172,20 @@ std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fractio
   return counts.size() - 1;
 }
 
+std::ptrdiff_t values_in(const std::vector<std::uint64_t>& counts) {
+  return std::count_if(counts.begin(), counts.end(), [](std::uint64_t count) { return count > 0; });
+}
+
 std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts, bool has_noise) {
   constexpr std::ptrdiff_t few = 8;
   std::uint64_t all = 0;
   for (const std::uint64_t count : counts) all += count;
-  const auto is_some = [](std::uint64_t count) { return count > 0; };
   const bool are_beside =
       std::adjacent_find(counts.begin(), counts.end(), [](std::uint64_t a, std::uint64_t b) {
         return a > 0 && b > 0;
       }) != counts.end();
   std::vector<GreyPeak> peaks;
-  if (std::count_if(counts.begin(), counts.end(), is_some) > few || (has_noise && are_beside)) {
+  if (values_in(counts) > few || (has_noise && are_beside)) {
     append_peaks(counts, all, 0, counts.size(), peaks);
     return peaks;
   }

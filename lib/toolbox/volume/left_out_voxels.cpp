@@ -43,8 +43,7 @@ Corners corners_of(LabelVolume& scan, const Execution& execution) {
 
 /// Changes 2 to 1 where it is connected to the border by faces, and to 0 elsewhere.
 void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const auto slice = width * static_cast<std::size_t>(counts[1]);
+  const VoxelGrid grid(counts);
   std::vector<std::size_t> open;
   const auto take = [&](std::size_t k) {
     if (marks[k] != 2) return;
@@ -52,10 +51,9 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
     open.push_back(k);
   };
   const auto is_at_border = [&](std::size_t k) {
-    const std::array<std::size_t, 3> place = {k % width, k % slice / width, k / slice};
+    const std::array<std::size_t, 3> place = grid.place(k);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place[axis] == 0 || place[axis] + 1 == static_cast<std::size_t>(counts[axis]))
-        return true;
+      if (place[axis] == 0 || place[axis] + 1 == grid.sizes[axis]) return true;
     }
     return false;
   };
@@ -84,22 +82,21 @@ bool hangs_together(const std::vector<std::uint8_t>& marks, const VoxelCounts& c
 
 /// Whether the voxels of 0 are nearly convex along each axis, and reach across the volume.
 bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
-  const std::array<std::size_t, 3> steps = {
-      1, static_cast<std::size_t>(counts[0]),
-      static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1])};
+  const VoxelGrid grid(counts);
   std::size_t left = 0;
   std::size_t gaps = 0;
   bool reaches_across = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto length = static_cast<std::size_t>(counts[axis]);
+    const std::size_t length = grid.sizes[axis];
+    const std::size_t step = grid.steps[axis];
     bool has_first = false;
     bool has_last = false;
     for (std::size_t begin = 0; begin < marks.size(); ++begin) {
-      if (begin / steps[axis] % length != 0) continue;
+      if (begin / step % length != 0) continue;
       std::size_t pending = 0;
       bool is_in = false;
       for (std::size_t k = 0; k < length; ++k) {
-        if (marks[begin + k * steps[axis]] != 0) {
+        if (marks[begin + k * step] != 0) {
           ++pending;
           continue;
         }
@@ -174,10 +171,8 @@ struct RaySide {
 };
 
 RaySide ray_side(const VoxelCounts& counts, std::size_t axis, bool is_far) {
-  const std::array<std::size_t, 3> sizes = {static_cast<std::size_t>(counts[0]),
-                                            static_cast<std::size_t>(counts[1]),
-                                            static_cast<std::size_t>(counts[2])};
-  const std::array<std::size_t, 3> steps = {1, sizes[0], sizes[0] * sizes[1]};
+  const VoxelGrid grid(counts);
+  const auto& [sizes, steps, voxels] = grid;
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
   const auto step = static_cast<std::ptrdiff_t>(steps[axis]);
@@ -239,19 +234,18 @@ Views views_of(const std::vector<SideView>& sides, const VoxelCounts& counts,
                const std::array<bool, 6>& seen) {
   Views views;
   views.counts = {counts[0] + 2, counts[1] + 2, counts[2] + 2};
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const auto rows = static_cast<std::size_t>(counts[1]);
+  const VoxelGrid grid(counts);
+  const VoxelGrid wider(views.counts);
   const auto padded = [&](std::size_t k) {
-    return ((k / (width * rows) + 1) * (rows + 2) + k / width % rows + 1) * (width + 2) +
-           k % width + 1;
+    const auto [x, y, z] = grid.place(k);
+    return (z + 1) * wider.steps[2] + (y + 1) * wider.steps[1] + x + 1;
   };
-  const std::array<std::size_t, 3> steps = {1, width + 2, (width + 2) * (rows + 2)};
-  views.behind.assign(steps[2] * (static_cast<std::size_t>(counts[2]) + 2), 0);
-  views.rest.assign(views.behind.size(), 1);
+  views.behind.assign(wider.voxels, 0);
+  views.rest.assign(wider.voxels, 1);
   for (std::size_t face = 0; face < sides.size(); ++face) {
     if (!seen[face]) continue;
     const auto& [side, depths] = sides[face];
-    const auto step = static_cast<std::ptrdiff_t>(steps[face / 2]) * (side.step < 0 ? -1 : 1);
+    const auto step = static_cast<std::ptrdiff_t>(wider.steps[face / 2]) * (side.step < 0 ? -1 : 1);
     for (std::size_t ray = 0; ray < depths.size(); ++ray) {
       if (depths[ray] == side.across) continue;
       // The layer is before the first voxel.
@@ -273,10 +267,9 @@ Views views_of(const std::vector<SideView>& sides, const VoxelCounts& counts,
 /// Calls take(voxel, place among views) for each voxel.
 template <class Take>
 void for_each_place(const VoxelCounts& counts, const Take& take) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const auto rows = static_cast<std::size_t>(counts[1]);
+  const auto [width, rows, slices] = VoxelGrid(counts).sizes;
   std::size_t k = 0;
-  for (std::size_t z = 1; z <= static_cast<std::size_t>(counts[2]); ++z) {
+  for (std::size_t z = 1; z <= slices; ++z) {
     for (std::size_t y = 1; y <= rows; ++y) {
       const std::size_t begin = (z * (rows + 2) + y) * (width + 2) + 1;
       for (std::size_t x = 0; x < width; ++x) take(k++, begin + x);
@@ -333,18 +326,17 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
   wall.marks.assign(mask.size(), 0);
   std::uint64_t material = 0;
   std::array<std::array<bool, 2>, 3> reaches = {};
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const auto rows = static_cast<std::size_t>(counts[1]);
+  const VoxelGrid grid(counts);
   for_each_place(counts, [&](std::size_t k, std::size_t place) {
     material += mask[k];
     if (distances[place] > (static_cast<double>(end) + 0.5) * length) return;
     wall.marks[k] = 1;
     if (mask[k] == 0) return;
     ++wall.voxels;
-    const std::array<std::size_t, 3> at = {k % width, k / width % rows, k / (width * rows)};
+    const std::array<std::size_t, 3> at = grid.place(k);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (at[axis] == 0) reaches[axis][0] = true;
-      if (at[axis] + 1 == static_cast<std::size_t>(counts[axis])) reaches[axis][1] = true;
+      if (at[axis] + 1 == grid.sizes[axis]) reaches[axis][1] = true;
     }
   });
   const bool crosses = std::any_of(reaches.begin(), reaches.end(),

@@ -37,7 +37,7 @@ double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::ui
   std::uint64_t pairs = 0;
   for_each_pair(counts, [&](std::size_t a, std::size_t b) {
     if ((grey[a] < level.value) == (grey[b] < level.value)) return;
-    if (!outside.empty() && (outside[a] != 0 || outside[b] != 0)) return;
+    if (is_marked(outside, a) || is_marked(outside, b)) return;
     sum += static_cast<std::uint64_t>(std::abs(clamped(grey[a]) - clamped(grey[b])));
     ++pairs;
   });
@@ -64,10 +64,10 @@ namespace {
 std::vector<std::uint32_t> sums_of(const std::vector<std::uint16_t>& grey,
                                    const VoxelCounts& counts, const Clamped& clamped,
                                    const Execution& execution) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const auto rows = static_cast<std::size_t>(counts[1]);
-  const auto slices = static_cast<std::size_t>(counts[2]);
-  const std::size_t slice = width * rows;
+  const VoxelGrid grid(counts);
+  const std::size_t width = grid.sizes[0];
+  const std::size_t slices = grid.sizes[2];
+  const std::size_t slice = grid.steps[2];
   std::vector<std::uint32_t> flat(grey.size());
   execution.parallel_for(slices, 1, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> lines(slice);
@@ -102,12 +102,11 @@ std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
                                      const VoxelCounts& counts, const GreyLevel& level,
                                      const Execution& execution) {
   std::vector<std::uint8_t> mask(grey.size());
-  const auto is_scanned = [&](std::size_t k) { return outside.empty() || outside[k] == 0; };
   const Clamped clamped = clamped_at(level);
   if (clamped.least >= clamped.most) {
     for (std::size_t k = 0; k < grey.size(); ++k) {
       const bool is_material = level.is_dark ? grey[k] <= level.value : grey[k] >= level.value;
-      mask[k] = is_material && is_scanned(k) ? 1 : 0;
+      mask[k] = is_material && !is_marked(outside, k) ? 1 : 0;
     }
     return mask;
   }
@@ -121,21 +120,21 @@ std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
   constexpr double voxels = 27.0;
   const double at = voxels * level.value;
   const auto is_material = [&](double sum) { return level.is_dark ? sum <= at : sum >= at; };
-  const auto slice = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
-  execution.parallel_for(
-      static_cast<std::size_t>(counts[2]), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin * slice; k < end * slice; ++k) {
-          const bool is_in = is_material(sums[k]);
-          bool is_beside = false;
-          double laplacian = 0.0;
-          for_each_neighbour(k, counts, [&](std::size_t other) {
-            is_beside = is_beside || is_material(sums[other]) != is_in;
-            laplacian += static_cast<double>(sums[other]) - static_cast<double>(sums[k]);
-          });
-          const bool is_taken = is_beside ? is_material(sums[k] - back * laplacian) : is_in;
-          mask[k] = is_taken && is_scanned(k) ? 1 : 0;
-        }
+  const VoxelGrid grid(counts);
+  const std::size_t slice = grid.steps[2];
+  execution.parallel_for(grid.sizes[2], 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin * slice; k < end * slice; ++k) {
+      const bool is_in = is_material(sums[k]);
+      bool is_beside = false;
+      double laplacian = 0.0;
+      for_each_neighbour(k, counts, [&](std::size_t other) {
+        is_beside = is_beside || is_material(sums[other]) != is_in;
+        laplacian += static_cast<double>(sums[other]) - static_cast<double>(sums[k]);
       });
+      const bool is_taken = is_beside ? is_material(sums[k] - back * laplacian) : is_in;
+      mask[k] = is_taken && !is_marked(outside, k) ? 1 : 0;
+    }
+  });
   return mask;
 }
 

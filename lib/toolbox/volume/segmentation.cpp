@@ -38,11 +38,6 @@ class HeldVolume : public LabelVolume {
   std::size_t next_ = 0;
 };
 
-std::size_t voxels_of(const VoxelCounts& counts) {
-  return static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]) *
-         static_cast<std::size_t>(counts[2]);
-}
-
 constexpr const char* reading_stage = "Reading the volume";
 
 /// A volume of so few values may be a mask of phases.
@@ -73,10 +68,8 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
     float before = std::numeric_limits<float>::quiet_NaN();
     for (const Label code : row) {
       const float value = grey_value(code);
-      const bool is_outside = !outside.empty() && outside[voxel] != 0;
-      ++voxel;
       range.has_nan = range.has_nan || code == 0;
-      if (is_outside || !std::isfinite(value)) continue;
+      if (is_marked(outside, voxel++) || !std::isfinite(value)) continue;
       if (value == before) ++equal;
       constexpr std::uint64_t sampled = 61;  // no common factor with usual row lengths
       if (count++ % sampled == 0) sample.push_back(value);
@@ -114,7 +107,7 @@ template <class IsMaterial>
 std::vector<std::uint8_t> mask_of(LabelVolume& volume, const Execution& execution,
                                   const IsMaterial& is_material) {
   std::vector<std::uint8_t> mask;
-  mask.reserve(voxels_of(volume.geometry().counts));
+  mask.reserve(VoxelGrid(volume.geometry().counts).voxels);
   for_each_row(volume, execution, reading_stage, [&](const std::vector<Label>& row) {
     for (const Label value : row) mask.push_back(is_material(value) ? 1 : 0);
   });
@@ -156,7 +149,7 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
   });
   std::vector<std::uint64_t> inside(counts.size(), 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (is_inside[k] != 0 && (outside.empty() || outside[k] == 0)) ++inside[grey[k]];
+    if (is_inside[k] != 0 && !is_marked(outside, k)) ++inside[grey[k]];
   }
   return inside;
 }
@@ -172,20 +165,18 @@ struct GreyCounts {
 double level_of(const GreyCounts& found_counts, const SegmentationOptions& options,
                 std::vector<GreyPeak>& peaks) {
   const auto& [counts, inside, has_noise] = found_counts;
-  const auto is_some = [](std::uint64_t count) { return count > 0; };
-  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) {
+  if (values_in(counts) < 2) {
     refuse("All voxels have one grey value after smoothing. Give " + mention("threshold") + ".");
   }
-  if (std::count_if(inside.begin(), inside.end(), is_some) >= 2)
-    peaks = peaks_of(inside, has_noise);
+  if (values_in(inside) >= 2) peaks = peaks_of(inside, has_noise);
   const auto found = static_cast<int>(peaks.size());
   // Noise and small dense bodies lead Otsu's threshold astray, but not the peaks.
   if (found < 2 && !options.phases) return level_between_peaks(counts);
   const int phases = options.phases.value_or(found - 1);
   if (phases >= found) {
-    refuse("The grey values have " + std::to_string(found) + (found == 1 ? " peak" : " peaks") +
-           ", so at most " + std::to_string(found - 1) + " can be material. Give " +
-           mention("threshold") + ", or a lower " + mention("phases") + ".");
+    refuse("The grey values have " + format_count(peaks.size(), "peak") + ", so at most " +
+           std::to_string(found - 1) + " can be material. Give " + mention("threshold") +
+           ", or a lower " + mention("phases") + ".");
   }
   return level_below(inside, peaks,
                      static_cast<std::size_t>(options.dark ? phases : found - phases));
@@ -229,14 +220,13 @@ ShortGrey short_grey(LabelVolume& scan, const GreyRange& range,
   result.base = is_short ? range.least : range.lower;
   result.step = is_short ? 1.0 : (range.upper - result.base) / most;
   std::vector<std::uint16_t>& grey = result.grey;
-  grey.reserve(voxels_of(scan.geometry().counts));
+  grey.reserve(VoxelGrid(scan.geometry().counts).voxels);
   for_each_row(scan, execution, reading_stage, [&](const std::vector<Label>& row) {
     // What was not scanned gets the value before it, so that smoothing does not change its
     // neighbours.
     float value = range.least;
     for (const Label code : row) {
-      const bool is_scanned = code != 0 && (outside.empty() || outside[grey.size()] == 0);
-      if (is_scanned) value = grey_value(code);
+      if (code != 0 && !is_marked(outside, grey.size())) value = grey_value(code);
       grey.push_back(static_cast<std::uint16_t>(
           std::clamp(std::round((value - result.base) / result.step), 0.0, most)));
     }
@@ -258,8 +248,7 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
 bool is_noisy(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
               const VoxelCounts& sizes) {
   const auto width = static_cast<std::size_t>(sizes[0]);
-  const auto is_some = [](std::uint64_t count) { return count > 0; };
-  if (std::count_if(counts.begin(), counts.end(), is_some) < 2) return true;
+  if (values_in(counts) < 2) return true;
   constexpr double little = 0.04;
   return static_cast<double>(quantile_of(differences_of(grey, width, counts.size()), 0.5)) >
          little * contrast_at(counts, level_between_peaks(counts));
@@ -297,8 +286,7 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
 /// behind them along an axis: flat faces of a made volume that has no blur, and no film.
 bool are_between_phases(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
                         double value, double first, double second) {
-  const auto width = static_cast<std::size_t>(sizes[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(sizes[1]);
+  const std::array<std::size_t, 3> steps = VoxelGrid(sizes).steps;
   const double contrast = std::abs(second - first);
   const auto is_near = [&](std::size_t k, double phase, double share) {
     return std::abs(static_cast<double>(grey[k]) - phase) < share * contrast;
@@ -307,10 +295,9 @@ bool are_between_phases(const std::vector<std::uint16_t>& grey, const VoxelCount
   constexpr double same_phase = 0.15;
   std::size_t found = 0;
   std::size_t between = 0;
-  for (std::size_t k = slice; k + slice < grey.size(); ++k) {
+  for (std::size_t k = steps[2]; k + steps[2] < grey.size(); ++k) {
     if (!is_near(k, value, same_value)) continue;
     ++found;
-    const auto steps = {std::size_t{1}, width, slice};
     between += std::any_of(steps.begin(), steps.end(), [&](std::size_t step) {
       const std::size_t low = grey[k - step] < grey[k + step] ? k - step : k + step;
       const std::size_t high = k - step + (k + step - low);
@@ -415,17 +402,13 @@ GreyParts greys_in_parts(const std::vector<std::uint16_t>& grey, const VoxelCoun
                          const IsLeftOut& is_left_out) {
   constexpr std::size_t along = 4;
   GreyParts parts;
-  const auto at = [&](std::size_t place, std::size_t axis) {
-    return place * along / static_cast<std::size_t>(sizes[axis]);
-  };
-  const auto width = static_cast<std::size_t>(sizes[0]);
-  const auto height = static_cast<std::size_t>(sizes[1]);
+  const VoxelGrid grid(sizes);
   constexpr std::size_t enough = 4'000'000;  // voxels, for memory
   for (std::size_t k = 0; k < grey.size(); k += 1 + grey.size() / enough) {
     if (is_left_out(k)) continue;
-    const std::size_t row = k / width;
-    parts[(at(row / height, 2) * along + at(row % height, 1)) * along + at(k % width, 0)].push_back(
-        grey[k]);
+    const std::array<std::size_t, 3> place = grid.place(k);
+    const auto at = [&](std::size_t axis) { return place[axis] * along / grid.sizes[axis]; };
+    parts[(at(2) * along + at(1)) * along + at(0)].push_back(grey[k]);
   }
   return parts;
 }
@@ -473,7 +456,7 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
     const auto [least, most] = usual_range(greys);
     return (most - least) / contrast;
   };
-  const auto is_outside = [&](std::size_t k) { return !left_out.empty() && left_out[k] != 0; };
+  const auto is_outside = [&](std::size_t k) { return is_marked(left_out, k); };
   GreyParts parts = greys_in_parts(values.grey, sizes,
                                    [&](std::size_t k) { return mask[k] != 0 || is_outside(k); });
   std::vector<double> space = quantiles_of(parts, 0.5);
@@ -538,8 +521,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
   }
   result.is_flat = result.is_flat && !cut_off.has_edges;
   if (result.is_flat) {
-    const auto smoothed = static_cast<std::size_t>(
-        std::count_if(counts.all.begin(), counts.all.end(), [](auto count) { return count > 0; }));
+    const auto smoothed = static_cast<std::size_t>(values_in(counts.all));
     result.is_flat =
         !are_phases(grey, scan.geometry(), smoothed, options, execution.part(0.5, 0.55));
   }
@@ -665,7 +647,7 @@ auto with_memory(const VoxelCounts& counts, const Work& work) {
     constexpr double bytes_a_voxel = 25e-9;
     throw MachineRefused(
         "There is not enough memory to separate the grains of a volume of this size, about " +
-        format_number(bytes_a_voxel * static_cast<double>(voxels_of(counts)), 2) +
+        format_number(bytes_a_voxel * static_cast<double>(VoxelGrid(counts).voxels), 2) +
         " GB. Cut the volume into parts, or halve its resolution.");
   }
 }
@@ -760,7 +742,7 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   result.is_chosen = options.threshold || options.phases;
   result.is_flat = values > 2 && range.equal_neighbours > 0.9;
   result.is_mask = values <= 2 || (values <= most_phases && result.is_flat && result.is_chosen);
-  result.voxels = voxels_of(geometry.counts);
+  result.voxels = VoxelGrid(geometry.counts).voxels;
   std::vector<std::uint8_t> left_out = outside;
   const auto find_material = result.is_mask ? material_of_mask : material_of;
   std::vector<std::uint8_t> mask =
@@ -789,7 +771,7 @@ std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
   std::vector<std::uint64_t> counts(
       std::size_t{std::numeric_limits<std::uint16_t>::max()} + std::size_t{1}, 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
-    if (outside.empty() || outside[k] == 0) ++counts[grey[k]];
+    if (!is_marked(outside, k)) ++counts[grey[k]];
   }
   return counts;
 }

@@ -18,11 +18,34 @@ struct EdgeSteps;
 
 // The steps of segment, in their order, and the neighbours of a voxel.
 
-/// Calls take(neighbour) for the neighbours of a voxel by faces. Voxels are numbered x fastest.
+/// The voxels of a volume, numbered x fastest.
+struct VoxelGrid {
+  std::array<std::size_t, 3> sizes;  ///< voxels along x, y and z
+  std::array<std::size_t, 3> steps;  ///< from one to the next along each
+  std::size_t voxels;
+
+  explicit VoxelGrid(const VoxelCounts& counts)
+      : sizes{static_cast<std::size_t>(counts[0]), static_cast<std::size_t>(counts[1]),
+              static_cast<std::size_t>(counts[2])},
+        steps{1, sizes[0], sizes[0] * sizes[1]},
+        voxels(steps[2] * sizes[2]) {}
+
+  std::array<std::size_t, 3> place(std::size_t voxel) const {
+    return {voxel % sizes[0], voxel / sizes[0] % sizes[1], voxel / steps[2]};
+  }
+};
+
+/// Whether a voxel has the mark 1. Without marks, none has.
+inline bool is_marked(const std::vector<std::uint8_t>& marks, std::size_t voxel) {
+  return !marks.empty() && marks[voxel] != 0;
+}
+
+/// Calls take(neighbour) for the neighbours of a voxel by faces.
 template <class Take>
 void for_each_neighbour(std::size_t voxel, const VoxelCounts& counts, const Take& take) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
+  const VoxelGrid grid(counts);
+  const std::size_t width = grid.sizes[0];
+  const std::size_t slice = grid.steps[2];
   const std::size_t x = voxel % width;
   const std::size_t in_slice = voxel % slice;
   if (x > 0) take(voxel - 1);
@@ -30,17 +53,17 @@ void for_each_neighbour(std::size_t voxel, const VoxelCounts& counts, const Take
   if (in_slice >= width) take(voxel - width);
   if (in_slice + width < slice) take(voxel + width);
   if (voxel >= slice) take(voxel - slice);
-  if (voxel + slice < slice * static_cast<std::size_t>(counts[2])) take(voxel + slice);
+  if (voxel + slice < grid.voxels) take(voxel + slice);
 }
 
 /// Calls take(voxel, neighbour) once for each pair of voxels with a common face; the neighbour has
 /// the smaller number.
 template <class Take>
 void for_each_pair(const VoxelCounts& counts, const Take& take) {
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
-  const std::size_t size = slice * static_cast<std::size_t>(counts[2]);
-  for (std::size_t voxel = 0; voxel < size; ++voxel) {
+  const VoxelGrid grid(counts);
+  const std::size_t width = grid.sizes[0];
+  const std::size_t slice = grid.steps[2];
+  for (std::size_t voxel = 0; voxel < grid.voxels; ++voxel) {
     if (voxel % width > 0) take(voxel, voxel - 1);
     if (voxel % slice >= width) take(voxel, voxel - width);
     if (voxel >= slice) take(voxel, voxel - slice);
@@ -87,6 +110,9 @@ struct GreyPeak {
 /// tenths of its height, and has at least one voxel of a thousand. Of up to eight values each is a
 /// peak, as in a mask of phases, but if `has_noise` not where some are next to each other.
 std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts, bool has_noise);
+
+/// Returns the number of different grey values in a histogram.
+std::ptrdiff_t values_in(const std::vector<std::uint64_t>& counts);
 
 /// Returns the histogram of voxels that were scanned. `outside`: 1 for the others; empty: none.
 std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
