@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -18,17 +19,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_tiff(const std::string& name) {
+std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
+
+/// The opener of each kind of slices: TIFF, PNG, BMP.
+constexpr std::size_t kinds = 3;
+constexpr std::array<OpenSlices, kinds> openers = {open_tiff_slices, open_png_slices,
+                                                   open_bmp_slices};
+
+/// Returns the kind of a slice by its name; `kinds`: it is none.
+std::size_t kind_of(const std::string& name) {
   const std::string ending = ending_of(name);
-  return ending == ".tif" || ending == ".tiff";
+  if (ending == ".tif" || ending == ".tiff") return 0;
+  return ending == ".png" ? 1 : ending == ".bmp" ? 2 : kinds;
 }
 
 /// Files of a folder.
 struct FolderContent {
-  std::vector<std::string> tiffs;
-  std::vector<std::string> pngs;
-  std::vector<std::string> bmps;
-  std::vector<std::string> others;  ///< names
+  std::array<std::vector<std::string>, kinds> slices;  ///< paths
+  std::vector<std::string> others;                     ///< names
 };
 
 FolderContent content_of(const std::string& folder) {
@@ -37,14 +45,10 @@ FolderContent content_of(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const bool is_taken = !is_foreign_file(name) && is_slice(name) && !entry.is_directory(error);
-    if (!is_taken) {
-      content.others.push_back(name);
+    if (is_taken) {
+      content.slices[kind_of(name)].push_back(entry.path().string());
     } else {
-      const bool is_bmp = ending_of(name) == ".bmp";
-      (is_tiff(name) ? content.tiffs
-       : is_bmp      ? content.bmps
-                     : content.pngs)
-          .push_back(entry.path().string());
+      content.others.push_back(name);
     }
   }
   // Compares numbers in names by value: 9 before 10. Capitals do not count: s1, S2, s3.
@@ -52,9 +56,7 @@ FolderContent content_of(const std::string& folder) {
     const int order = compare_numbered(lower_case(a), lower_case(b));
     return order != 0 ? order < 0 : a < b;
   };
-  std::sort(content.tiffs.begin(), content.tiffs.end(), comes_before);
-  std::sort(content.pngs.begin(), content.pngs.end(), comes_before);
-  std::sort(content.bmps.begin(), content.bmps.end(), comes_before);
+  for (auto& paths : content.slices) std::sort(paths.begin(), paths.end(), comes_before);
   std::sort(content.others.begin(), content.others.end());
   return content;
 }
@@ -195,9 +197,7 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
   }
   std::stable_sort(series.begin(), series.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  const auto name = [](const std::string& path) {
-    return "\"" + fs::path(path).filename().string() + "\"";
-  };
+  const auto name = [](const std::string& path) { return "\"" + name_of(path) + "\""; };
   // A preview, a mask of one slice or a logo is one file or two.
   constexpr std::size_t most_odd = 2;
   if (series.size() > 1 && (series[1].size() > most_odd || series[1].size() == series[0].size())) {
@@ -216,9 +216,7 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
                            : ". Move one of them to a folder of its own."));
   }
   for (std::size_t k = 1; k < series.size(); ++k) {
-    for (const std::string& path : series[k]) {
-      others.push_back(fs::path(path).filename().string());
-    }
+    for (const std::string& path : series[k]) others.push_back(name_of(path));
   }
   std::sort(others.begin(), others.end());
   paths = series.front();
@@ -234,7 +232,7 @@ void check_numbers(const std::string& folder, const std::vector<std::string>& pa
     }
     if (numbers.empty()) continue;
     const std::string last = numbers.back();
-    const std::string name = fs::path(path).filename().string();
+    const std::string name = name_of(path);
     const auto [other, is_new] = found.emplace(std::pair(pattern_of(path), numbers), name);
     if (is_new) continue;
     refuse_volume(folder, "has the number " + last + " twice: " + in_quotes(other->second) +
@@ -252,8 +250,8 @@ std::string sentence_of_gap(const std::vector<std::string>& paths,
   }
   for (std::size_t k = 1; k < numbers.size(); ++k) {
     if (numbers[k] - numbers[k - 1] == step) continue;
-    return "There is no slice between " + in_quotes(fs::path(paths[k - 1]).filename().string()) +
-           " and " + in_quotes(fs::path(paths[k]).filename().string()) +
+    return "There is no slice between " + in_quotes(name_of(paths[k - 1])) + " and " +
+           in_quotes(name_of(paths[k])) +
            ". They were used as neighbours. Look for the missing slices.";
   }
   return "";
@@ -410,55 +408,36 @@ bool is_foreign_file(const std::string& name) {
          lower == "desktop.ini" || lower == "__macosx";
 }
 
-bool is_slice(const std::string& name) {
-  const std::string ending = ending_of(name);
-  return is_tiff(name) || ending == ".png" || ending == ".bmp";
-}
+bool is_slice(const std::string& name) { return kind_of(name) < kinds; }
 
 std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeChoice& choice) {
-  FolderContent content = content_of(path);
-  std::vector<std::string>* kind = nullptr;
-  for (std::vector<std::string>* one : {&content.tiffs, &content.pngs, &content.bmps}) {
-    if (one->empty()) continue;
-    if (kind != nullptr) {
-      refuse_volume(path, "holds " + std::to_string(content.tiffs.size()) + " .tif, " +
-                              std::to_string(content.pngs.size()) + " .png and " +
-                              std::to_string(content.bmps.size()) +
+  auto [found, others] = content_of(path);
+  std::size_t kind = kinds;
+  for (std::size_t k = 0; k < kinds; ++k) {
+    if (found[k].empty()) continue;
+    if (kind < kinds) {
+      refuse_volume(path, "holds " + std::to_string(found[0].size()) + " .tif, " +
+                              std::to_string(found[1].size()) + " .png and " +
+                              std::to_string(found[2].size()) +
                               " .bmp files. Keep only one kind there.");
     }
-    kind = one;
+    kind = k;
   }
-  if (kind == nullptr) {
-    refuse_volume(path, sentence_without_slices(path, content.others));
-  }
-  std::vector<std::int64_t> numbers = sort_hexadecimal(*kind);
+  if (kind == kinds) refuse_volume(path, sentence_without_slices(path, others));
+  SliceFiles slices = {path, std::move(found[kind])};
+  std::vector<std::int64_t> numbers = sort_hexadecimal(slices.paths);
   const bool is_hexadecimal = !numbers.empty();
   if (!is_hexadecimal) {
-    keep_one_series(path, *kind, content.others);
-    check_numbers(path, *kind);
-    numbers = rising_numbers(*kind);
+    keep_one_series(path, slices.paths, others);
+    check_numbers(path, slices.paths);
+    numbers = rising_numbers(slices.paths);
   }
-  const SliceFiles slices = {path, *kind};
-  std::unique_ptr<LabelVolume> volume = kind == &content.tiffs  ? open_tiff_slices(slices, choice)
-                                        : kind == &content.pngs ? open_png_slices(slices, choice)
-                                                                : open_bmp_slices(slices, choice);
-  if (!content.others.empty()) volume->add_note(sentence_of_others(content.others));
+  std::unique_ptr<LabelVolume> volume = openers[kind](slices, choice);
+  if (!others.empty()) volume->add_note(sentence_of_others(others));
   if (is_hexadecimal) volume->add_note("The slices were read in the order of hexadecimal numbers.");
   const std::string gap = sentence_of_gap(slices.paths, numbers);
   if (!gap.empty()) volume->add_warning(gap);
   return volume;
-}
-
-std::unique_ptr<LabelVolume> open_tiff(const std::string& path, const VolumeChoice& choice) {
-  return open_tiff_slices({path, {path}}, choice);
-}
-
-std::unique_ptr<LabelVolume> open_png(const std::string& path, const VolumeChoice& choice) {
-  return open_png_slices({path, {path}}, choice);
-}
-
-std::unique_ptr<LabelVolume> open_bmp(const std::string& path, const VolumeChoice& choice) {
-  return open_bmp_slices({path, {path}}, choice);
 }
 
 }  // namespace wscvt

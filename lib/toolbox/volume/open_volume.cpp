@@ -27,14 +27,20 @@ struct Format {
   std::unique_ptr<LabelVolume> (*open)(const std::string& path, const VolumeChoice& choice);
 };
 
+/// Opens a file that contains all slices.
+template <OpenSlices open>
+std::unique_ptr<LabelVolume> open_alone(const std::string& path, const VolumeChoice& choice) {
+  return open({path, {path}}, choice);
+}
+
 const Format* format_of(const std::string& path) {
   static const std::vector<Format> formats = {
       {{".nrrd", ".nhdr"}, open_nrrd},
       {{".mhd", ".mha"}, open_meta_image},
       {{".vti"}, open_vti},
-      {{".tif", ".tiff"}, open_tiff},
-      {{".png"}, open_png},
-      {{".bmp"}, open_bmp},
+      {{".tif", ".tiff"}, open_alone<open_tiff_slices>},
+      {{".png"}, open_alone<open_png_slices>},
+      {{".bmp"}, open_alone<open_bmp_slices>},
       {{".nii", ".nii.gz"}, open_nifti},
       {{".npy"}, open_npy},
       {{".npz"}, open_npz},

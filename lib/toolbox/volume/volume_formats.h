@@ -21,12 +21,6 @@ struct VolumeArray;  // open_volume.h
 std::unique_ptr<LabelVolume> open_nrrd(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_meta_image(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoice& choice);
-/// Opens a file.
-std::unique_ptr<LabelVolume> open_tiff(const std::string& path, const VolumeChoice& choice);
-
-std::unique_ptr<LabelVolume> open_png(const std::string& path, const VolumeChoice& choice);
-std::unique_ptr<LabelVolume> open_bmp(const std::string& path, const VolumeChoice& choice);
-
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_npy(const std::string& path, const VolumeChoice& choice);
 std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice& choice);
@@ -63,6 +57,9 @@ struct SliceFiles {
   std::string folder;              ///< or the file, if it contains all slices
   std::vector<std::string> paths;  ///< in the order of the numbers in their names
 };
+
+using OpenSlices = std::unique_ptr<LabelVolume> (*)(const SliceFiles& slices,
+                                                    const VolumeChoice& choice);
 
 /// Opens slices that are files of one page, or the pages of the only file. Throws as open_volume
 /// does, and Error(InputOutput) naming the first slice whose size or type differs from the previous
