@@ -42,25 +42,17 @@ FramedClump in_frame(const ClumpResult& clump, const FrameOptions& options) {
   return framed;
 }
 
-std::string numbers(const std::vector<double>& values, const char* between) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : between) + format_exact(value);
-  return text;
-}
-
-std::vector<double> row_of(const Sphere& sphere) {
-  return {sphere.centre.x(), sphere.centre.y(), sphere.centre.z(), sphere.radius};
+std::string numbers(const Vector3& values, const char* between) {
+  return format_exact(values[0]) + between + format_exact(values[1]) + between +
+         format_exact(values[2]);
 }
 
 std::string rows_of(const std::vector<Sphere>& spheres, const char* between) {
   std::string text;
-  for (const Sphere& sphere : spheres) text += numbers(row_of(sphere), between) + "\n";
+  for (const Sphere& sphere : spheres) {
+    text += numbers(sphere.centre, between) + between + format_exact(sphere.radius) + "\n";
+  }
   return text;
-}
-
-std::vector<double> moments(const FramedClump& clump) {
-  const Vector3& m = clump.mass.principal_moments;
-  return {m[0], m[1], m[2]};
 }
 
 std::string made_by_text() { return std::string("wscvt ") + version(); }
@@ -90,24 +82,18 @@ int liggghts_seed(const std::string& name) {
 
 std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
   const std::string name = liggghts_name(path);
+  std::string moments;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    moments += std::string("variable clump_") + std::string(2, "xyz"[k]) + " equal ${density}*" +
+               format_exact(clump.mass.principal_moments[k]) + "\n";
+  }
   return "# Made by " + made_by_text() +
          ". Mass and tensor of inertia are the grain's, at unit density times\n"
          "# the variable density. Each such file counts clump_type up. Before the first write:\n"
          "#   variable density equal 2500\n#   variable clump_type equal 1\n"
          "variable clump_mass equal ${density}*" +
-         format_exact(clump.mass.volume) + "\n" +
-         [&] {
-           std::string lines;
-           const std::vector<double> values = moments(clump);
-           const std::array<const char*, 3> names = {"xx", "yy", "zz"};
-           for (std::size_t k = 0; k < 3; ++k) {
-             lines += std::string("variable clump_") + names[k] + " equal ${density}*" +
-                      format_exact(values[k]) + "\n";
-           }
-           return lines;
-         }() +
-         "fix " + name + " all particletemplate/multisphere " +
-         std::to_string(liggghts_seed(name)) +
+         format_exact(clump.mass.volume) + "\n" + moments + "fix " + name +
+         " all particletemplate/multisphere " + std::to_string(liggghts_seed(name)) +
          " atom_type 1 density constant ${density} nspheres " +
          std::to_string(clump.spheres.size()) + " ntry 100000 spheres file \"" + name_of(path) +
          "\" scale 1.0 type ${clump_type} mass ${clump_mass} inertia_tensor ${clump_xx} 0 0 "
@@ -117,9 +103,8 @@ std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
 std::string yade_script(const FramedClump& clump) {
   std::string spheres;
   for (const Sphere& sphere : clump.spheres) {
-    const Vector3& c = sphere.centre;
-    spheres += "    ((" + numbers({c.x(), c.y(), c.z()}, ", ") + "), " +
-               format_exact(sphere.radius) + "),\n";
+    spheres +=
+        "    ((" + numbers(sphere.centre, ", ") + "), " + format_exact(sphere.radius) + "),\n";
   }
   return "# Made by " + made_by_text() +
          ". A clump for Yade: import this file in a script of Yade's.\n"
@@ -128,8 +113,8 @@ std::string yade_script(const FramedClump& clump) {
          "# grain's at unit density.\n"
          "from yade import O, Matrix3, Quaternion, Vector3, utils\n\n"
          "volume = " +
-         format_exact(clump.mass.volume) + "\nmoments = (" + numbers(moments(clump), ", ") +
-         ")\nspheres = [\n" + spheres +
+         format_exact(clump.mass.volume) + "\nmoments = (" +
+         numbers(clump.mass.principal_moments, ", ") + ")\nspheres = [\n" + spheres +
          "]\n\n"
          "# For O.bodies.replaceByClumps, which takes mass and inertia from the spheres.\n"
          "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, "
@@ -156,8 +141,8 @@ std::string yade_script(const FramedClump& clump) {
 std::string chrono_table(const FramedClump& clump) {
   return "x,y,z,r\n" + rows_of(clump.spheres, ",") +
          "# volume = " + format_exact(clump.mass.volume) +
-         "\n# Ixx, yy, zz = " + numbers(moments(clump), ", ") + "\n# made by " + made_by_text() +
-         "; mass is density times volume, moments are density times Ixx, yy, zz\n";
+         "\n# Ixx, yy, zz = " + numbers(clump.mass.principal_moments, ", ") + "\n# made by " +
+         made_by_text() + "; mass is density times volume, moments are density times Ixx, yy, zz\n";
 }
 
 std::string pfc_command(const FramedClump& clump, const std::string& path) {
@@ -168,11 +153,10 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
                      "clump template create ...\n  name '" + name + "' ...\n  pebbles " +
                      std::to_string(clump.spheres.size()) + " ...\n";
   for (const Sphere& sphere : clump.spheres) {
-    const Vector3& c = sphere.centre;
-    text += "    " + numbers({sphere.radius, c.x(), c.y(), c.z()}, " ") + " ...\n";
+    text += "    " + format_exact(sphere.radius) + " " + numbers(sphere.centre, " ") + " ...\n";
   }
   return text + "  volume " + format_exact(clump.mass.volume) + " ...\n  inertia " +
-         numbers(moments(clump), " ") + " 0 0 0\n";
+         numbers(clump.mass.principal_moments, " ") + " 0 0 0\n";
 }
 
 /// Returns a cluster of Kratos's DEM application. Its mesher takes the ball about the cluster.
@@ -181,8 +165,7 @@ std::string kratos_cluster(const FramedClump& clump, const std::string& path) {
   for (const Sphere& sphere : clump.spheres) {
     reach = std::max(reach, sphere.centre.norm() + sphere.radius);
   }
-  std::vector<double> per_mass = moments(clump);
-  for (double& moment : per_mass) moment /= clump.mass.volume;
+  const Vector3 per_mass = clump.mass.principal_moments / clump.mass.volume;
   const std::string size = format_exact(2.0 * reach);
   return "// made by " + made_by_text() + "; volume and inertia are the grain's\n\nName\n" +
          std::filesystem::path(path).stem().string() + "\n\nBegin centers_and_radii\n" +
@@ -201,15 +184,13 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
   const double mass = density * clump.mass.volume;
   std::string coordinates, types, diameters, masses;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
-    const Vector3& c = spheres[k].centre;
     const std::string number = std::to_string(k + 1) + " ";
-    coordinates += number + numbers({c.x(), c.y(), c.z()}, " ") + "\n";
+    coordinates += number + numbers(spheres[k].centre, " ") + "\n";
     types += number + "1\n";
     diameters += number + format_exact(2.0 * spheres[k].radius) + "\n";
     masses += number + format_exact(mass * portable::pow(spheres[k].radius, 3) / cubes) + "\n";
   }
-  std::vector<double> tensor = moments(clump);
-  for (double& moment : tensor) moment *= density;
+  const Vector3 tensor = density * clump.mass.principal_moments;
   return "# made by " + made_by_text() + "; mass and moments are the grain's, density " +
          format_exact(density) + "\n\n" + std::to_string(spheres.size()) + " atoms\n" +
          format_exact(mass) + " mass\n0 0 0 com\n" + numbers(tensor, " ") +
@@ -225,7 +206,7 @@ void write_mercury(const std::string& path, const FramedClump& clump) {
   for (const char* part : {"Clump", "Inertia"}) {
     std::filesystem::create_directories(folder / part, error);  // writing reports errors
   }
-  const std::vector<double> m = moments(clump);
+  const Vector3& m = clump.mass.principal_moments;
   write_file((folder / "Clump/Clump.txt").string(), rows_of(clump.spheres, ","));
   write_file((folder / "Inertia/Mass.txt").string(), format_exact(clump.mass.volume) + "\n");
   write_file((folder / "Inertia/TOI.txt").string(), numbers({m[0], 0, 0}, ",") + "\n" +
@@ -234,18 +215,14 @@ void write_mercury(const std::string& path, const FramedClump& clump) {
   write_file((folder / "Inertia/PD.txt").string(), "1,0,0\n0,1,0\n0,0,1\n");
 }
 
-bool ends_with(const std::string& path, const std::string& ending) {
-  if (path.size() <= ending.size()) return false;
-  return std::equal(ending.rbegin(), ending.rend(), path.rbegin(), [](char a, char b) {
-    return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b);
-  });
-}
-
 /// Returns the longest matching ending; empty if there is none.
 std::string clump_ending(const std::string& path) {
+  const std::string lower = lower_case(path);
   std::string found;
   for (const std::string& ending : clump_endings()) {
-    if (ends_with(path, ending) && ending.size() > found.size()) found = ending;
+    const bool fits =
+        lower.size() > ending.size() && std::equal(ending.rbegin(), ending.rend(), lower.rbegin());
+    if (fits && ending.size() > found.size()) found = ending;
   }
   return found;
 }

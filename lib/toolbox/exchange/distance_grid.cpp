@@ -21,14 +21,11 @@ namespace {
 /// Cells between the surface's box and the edge of the grid: room for interpolation and gradients.
 constexpr double margin = 4.0;
 
-std::array<unsigned char, 8> bytes_of(double value) {
-  std::array<unsigned char, 8> bytes{};
-  boost::endian::endian_store<double, 8, boost::endian::order::little>(bytes.data(), value);
-  return bytes;
-}
-
-void append(std::string& text, double value) {
-  const std::array<unsigned char, 8> bytes = bytes_of(value);
+template <class Value>
+void append(std::string& text, Value value) {
+  std::array<unsigned char, sizeof(Value)> bytes{};
+  boost::endian::endian_store<Value, sizeof(Value), boost::endian::order::little>(bytes.data(),
+                                                                                  value);
   text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
@@ -93,15 +90,6 @@ double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
   return affordable_spacing(box, {portable::cbrt(6.0 * volume / pi) / 50.0});
 }
 
-}  // namespace
-
-double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
-                    const Execution& execution) {
-  return options.spacing > 0.0 ? options.spacing : default_spacing(closed, execution);
-}
-
-namespace {
-
 /// Returns a grid about the mesh, without values.
 DistanceGrid empty_grid(const IndexedMesh& mesh, GridOptions options, const Execution& execution) {
   const Box box = box_of(mesh);
@@ -121,6 +109,11 @@ DistanceGrid empty_grid(const IndexedMesh& mesh, GridOptions options, const Exec
 }
 
 }  // namespace
+
+double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
+                    const Execution& execution) {
+  return options.spacing > 0.0 ? options.spacing : default_spacing(closed, execution);
+}
 
 void check_grid(const IndexedMesh& closed, const GridOptions& options) {
   const Box box = box_of(closed);
@@ -197,9 +190,7 @@ std::string grid_vti(const DistanceGrid& grid) {
       "\">\n<PointData Scalars=\"distance\">\n<DataArray type=\"Float64\" Name=\"distance\" "
       "format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n</ImageData>\n"
       "<AppendedData encoding=\"raw\">\n_";
-  std::array<unsigned char, 8> length{};
-  boost::endian::store_little_u64(length.data(), 8 * grid.values.size());
-  bytes.append(reinterpret_cast<const char*>(length.data()), length.size());
+  append(bytes, std::uint64_t{8 * grid.values.size()});
   bytes.reserve(bytes.size() + 8 * grid.values.size() + 40);
   // x runs fastest in VTK.
   for (std::size_t k = 0; k < nz; ++k) {

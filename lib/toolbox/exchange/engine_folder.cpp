@@ -72,6 +72,20 @@ std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOption
   return json_document(scene);
 }
 
+/// Throws as check_engine.
+const EngineRow& engine_row(const std::string& engine, EngineShapes shapes) {
+  for (const EngineRow& row : engines()) {
+    if (row.name != engine) continue;
+    if (takes(row, shapes)) return row;
+    refuse("\"" + engine + "\" takes no " +
+           (shapes == EngineShapes::Clumps ? "clumps. Use wscvt convex"
+                                           : "convex parts. Use wscvt clump") +
+           " with this engine, or one of " + engine_names(shapes) + ".");
+  }
+  refuse("There are no files for an engine \"" + engine + "\". Give one of " +
+         engine_names(shapes) + ".");
+}
+
 }  // namespace
 
 std::string engine_names(EngineShapes shapes) {
@@ -83,18 +97,7 @@ std::string engine_names(EngineShapes shapes) {
   return names;
 }
 
-void check_engine(const std::string& engine, EngineShapes shapes) {
-  for (const EngineRow& row : engines()) {
-    if (row.name != engine) continue;
-    if (takes(row, shapes)) return;
-    refuse("\"" + engine + "\" takes no " +
-           (shapes == EngineShapes::Clumps ? "clumps. Use wscvt convex"
-                                           : "convex parts. Use wscvt clump") +
-           " with this engine, or one of " + engine_names(shapes) + ".");
-  }
-  refuse("There are no files for an engine \"" + engine + "\". Give one of " +
-         engine_names(shapes) + ".");
-}
+void check_engine(const std::string& engine, EngineShapes shapes) { engine_row(engine, shapes); }
 
 std::string_view engine_format(EngineShapes shapes) {
   return shapes == EngineShapes::Clumps ? "csv" : "obj";
@@ -103,21 +106,17 @@ std::string_view engine_format(EngineShapes shapes) {
 std::string write_engine_folder(const std::string& folder, const std::string& engine,
                                 EngineShapes shapes, const std::vector<EngineGrain>& grains,
                                 const FrameOptions& frame, double density) {
-  check_engine(engine, shapes);
+  const EngineRow& row = engine_row(engine, shapes);
   const std::filesystem::path in(folder);
-  for (const EngineRow& row : engines()) {
-    if (row.name != engine) continue;
-    write_file((in / "packing.py").string(), packing_script);
-    write_file((in / "run.py").string(), row.script);
-    if (row.program != nullptr) write_file((in / row.program_name).string(), row.program);
-    const std::filesystem::path scene = in / "scene.json";
-    std::error_code ignored;
-    if (!std::filesystem::exists(scene, ignored)) {
-      write_file(scene.string(), scene_text(grains, frame, density));
-    }
-    return row.command;
+  write_file((in / "packing.py").string(), packing_script);
+  write_file((in / "run.py").string(), row.script);
+  if (row.program != nullptr) write_file((in / row.program_name).string(), row.program);
+  const std::filesystem::path scene = in / "scene.json";
+  std::error_code ignored;
+  if (!std::filesystem::exists(scene, ignored)) {
+    write_file(scene.string(), scene_text(grains, frame, density));
   }
-  return "";
+  return row.command;
 }
 
 }  // namespace wscvt

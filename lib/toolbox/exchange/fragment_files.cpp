@@ -19,6 +19,14 @@
 
 namespace wscvt {
 
+namespace {
+
+void append(std::vector<std::string>& fields, const Vector3& v) {
+  for (const double coordinate : v) fields.push_back(format_exact(coordinate));
+}
+
+}  // namespace
+
 void check_fragment_format(const std::string& format) {
   if (format == "urdf" || format == "xml" || format == "shp") return;
   if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
@@ -46,14 +54,6 @@ Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
   write_file(path, shape.text);
   return shape.rounding;
 }
-
-namespace {
-
-void append(std::vector<std::string>& fields, const Vector3& v) {
-  for (const double coordinate : v) fields.push_back(format_exact(coordinate));
-}
-
-}  // namespace
 
 std::string fragments_csv(const Fragments& fragments, const std::vector<std::string>& files) {
   std::vector<int> contacts(fragments.list.size(), 0);

@@ -63,7 +63,6 @@ struct SimulationFrame {
   double scale = 1.0;                  ///< length written / length of the scan
 
   Vector3 point(const Vector3& p) const { return scale * (axes.conjugate() * (p - origin)); }
-  Vector3 direction(const Vector3& v) const { return axes.conjugate() * v; }
 };
 
 /// Returns the frame of a grain. It is computed from the scan, so that remeshes with any number of
