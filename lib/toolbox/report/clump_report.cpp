@@ -71,47 +71,36 @@ Json report_of(const ClumpResult& clump, const ReportOrigin& origin) {
           {"warnings", clump.warnings}};
 }
 
+using Row = std::vector<std::string>;
+using Rows = std::vector<Row>;
+
 std::string counted_spheres(const ClumpResult& clump) {
-  const std::size_t count = clump.spheres.size();
-  return std::to_string(count) + (count == 1 ? " sphere" : " spheres");
+  return format_count(clump.spheres.size(), "sphere");
 }
 
-std::vector<std::vector<std::string>> error_rows(const ClumpResult& clump) {
+Rows error_rows(const ClumpResult& clump) {
   const auto distance = [&](const std::string& label, double length) {
-    return std::vector<std::string>{label, format_number(length, 4),
-                                    format_number(percent_of_radius(clump, length), 3)};
+    return Row{label, format_number(length, 4), format_number(percent_of_radius(clump, length), 3)};
   };
   return {{"error of the clump", "length", "% of equivalent radius"},
           distance("rms distance from scan to clump", clump.rms_distance),
           distance("largest distance from scan to clump", clump.largest_distance)};
 }
 
-std::vector<std::vector<std::string>> contact_rows(const ClumpResult& clump) {
-  const auto row = [](const std::string& name, const ContactError& error) {
-    return std::vector<std::string>{name, format_number(error.mean, 3),
-                                    format_number(error.scatter, 3)};
-  };
-  std::vector<std::vector<std::string>> rows = {
-      {"first contact, % of equivalent radius", "mean error", "scatter"},
-      row("clump of " + counted_spheres(clump), clump.contact)};
-  return rows;
+Rows contact_rows(const ClumpResult& clump) {
+  return {{"first contact, % of equivalent radius", "mean error", "scatter"},
+          {"clump of " + counted_spheres(clump), format_number(clump.contact.mean, 3),
+           format_number(clump.contact.scatter, 3)}};
 }
 
-std::vector<std::vector<std::string>> mass_error_rows(const ClumpResult& clump) {
+Rows mass_error_rows(const ClumpResult& clump) {
   const auto row = [](const std::string& name, const MassError& error) {
-    return std::vector<std::string>{name, format_number(error.volume_percent, 3),
-                                    format_number(error.centroid_percent, 3),
-                                    format_number(error.inertia_percent, 3)};
+    return Row{name, format_number(error.volume_percent, 3),
+               format_number(error.centroid_percent, 3), format_number(error.inertia_percent, 3)};
   };
   return {{"error if taken for the grain's", "volume %", "centroid, % of radius", "inertia %"},
           row("union of the spheres", clump.united.error),
           row("sum over the spheres", clump.summed.error)};
-}
-
-std::vector<NamedMass> masses(const ClumpResult& clump) {
-  return {{"grain", mass_properties(clump.scan)},
-          {"union of the spheres", clump.united.mass},
-          {"sum over the spheres", clump.summed.mass}};
 }
 
 }  // namespace
@@ -129,12 +118,9 @@ std::vector<std::string> clump_lines(const ClumpResult& clump) {
           format_number(clump.equivalent_radius),
       "Clump       " + counted_spheres(clump) + ", intersection over union " +
           format_number(clump.intersection_over_union, 4)};
-  const auto append = [&](const std::vector<std::vector<std::string>>& rows) {
+  for (const Rows& rows : {error_rows(clump), contact_rows(clump), mass_error_rows(clump)}) {
     for (std::string& line : aligned_lines(rows)) lines.push_back(std::move(line));
-  };
-  append(error_rows(clump));
-  append(contact_rows(clump));
-  append(mass_error_rows(clump));
+  }
   return lines;
 }
 
@@ -168,7 +154,9 @@ std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
       "distance for two scans. If the error is negative, the bodies get too close.");
   page.add_rows(contact_rows(clump));
   page.add_heading("Mass properties");
-  page.add_rows(mass_rows(masses(clump)));
+  page.add_rows(mass_rows({{"grain", mass_properties(clump.scan)},
+                           {"union of the spheres", clump.united.mass},
+                           {"sum over the spheres", clump.summed.mass}}));
   page.add_rows(mass_error_rows(clump));
   std::vector<CurvePoint> points;
   for (const ClumpStage& stage : clump.stages) {

@@ -54,24 +54,23 @@ std::string parts_json(const PartsResult& result, const ReportOrigin& origin) {
   const PartsMeasures& m = result.measures;
   Json faces = Json::array();
   for (const IndexedMesh& part : result.parts) faces.push_back(part.triangles.size());
-  Json json = {{"format", "wscvt-convex-parts"},
-               {"made_by", made_by()},
-               {"source", told(origin.source)},
-               {"date", told(origin.date)},
-               {"parts", result.parts.size()},
-               {"faces", faces},
-               {"largest_distance", m.largest_distance},
-               {"largest_distance_percent", percent_of_radius(m.largest_distance, m)},
-               {"rms_distance", m.rms_distance},
-               {"rms_distance_percent", percent_of_radius(m.rms_distance, m)},
-               {"largest_gap", m.largest_gap},
-               {"largest_gap_percent", percent_of_radius(m.largest_gap, m)},
-               {"parts_volume", m.parts_volume},
-               {"shared_volume", m.shared_volume},
-               {"excess_volume_percent", m.excess_percent()},
-               {"mass_properties", json_of(mass_properties(result.scan))},
-               {"warnings", result.warnings}};
-  return json_document(json);
+  return json_document({{"format", "wscvt-convex-parts"},
+                        {"made_by", made_by()},
+                        {"source", told(origin.source)},
+                        {"date", told(origin.date)},
+                        {"parts", result.parts.size()},
+                        {"faces", faces},
+                        {"largest_distance", m.largest_distance},
+                        {"largest_distance_percent", percent_of_radius(m.largest_distance, m)},
+                        {"rms_distance", m.rms_distance},
+                        {"rms_distance_percent", percent_of_radius(m.rms_distance, m)},
+                        {"largest_gap", m.largest_gap},
+                        {"largest_gap_percent", percent_of_radius(m.largest_gap, m)},
+                        {"parts_volume", m.parts_volume},
+                        {"shared_volume", m.shared_volume},
+                        {"excess_volume_percent", m.excess_percent()},
+                        {"mass_properties", json_of(mass_properties(result.scan))},
+                        {"warnings", result.warnings}});
 }
 
 std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
@@ -81,8 +80,7 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
   const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
                                            execution, outer_points(result.parts));
   const std::string name = std::filesystem::path(origin.source).filename().string();
-  HtmlDocument page(std::to_string(result.parts.size()) +
-                    (result.parts.size() == 1 ? " convex part" : " convex parts") +
+  HtmlDocument page(format_count(result.parts.size(), "convex part") +
                     (name.empty() ? "" : " of " + name));
   page.add_paragraph(origin_sentence(origin));
   for (const std::string& warning : result.warnings) page.add_warning(warning);

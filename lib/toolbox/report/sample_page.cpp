@@ -37,6 +37,8 @@ constexpr int thumbnail_pixels = 72;
 /// A table with more rows is collapsed.
 constexpr std::size_t most_open_rows = 16;
 
+using Rows = std::vector<std::vector<std::string>>;
+
 /// Whether a table shows a column of the sample.
 using ColumnFilter = bool (*)(const std::string& column);
 
@@ -231,8 +233,8 @@ std::string data_of(const SampleReport& report, const Execution& execution) {
          "}";
 }
 
-std::vector<std::vector<std::string>> size_table(const SampleReport& report) {
-  std::vector<std::vector<std::string>> rows = {{"size"}};
+Rows size_table(const SampleReport& report) {
+  Rows rows = {{"size"}};
   const auto add = [&](const std::string& label, Estimate SizeEstimates::*member) {
     std::vector<std::string> row = {label};
     for (const ReportedSample& one : report.samples) {
@@ -256,11 +258,9 @@ std::vector<std::vector<std::string>> size_table(const SampleReport& report) {
   return rows;
 }
 
-std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one,
-                                                       ColumnFilter is_shown) {
-  std::vector<std::vector<std::string>> rows = {{"descriptor", "grains", "mean by number",
-                                                 "std. dev. (n - 1)", "10 %", "median", "90 %",
-                                                 "mean by mass", "correlation with size"}};
+Rows statistics_table(const ReportedSample& one, ColumnFilter is_shown) {
+  Rows rows = {{"descriptor", "grains", "mean by number", "std. dev. (n - 1)", "10 %", "median",
+                "90 %", "mean by mass", "correlation with size"}};
   for (const ColumnStatistics& c : one.statistics.columns) {
     if (c.count == 0 || !is_shown(c.column.name)) continue;
     const auto value = [](const Estimate& e) { return format_number(e.value, 4); };
@@ -272,11 +272,9 @@ std::vector<std::vector<std::string>> statistics_table(const ReportedSample& one
   return rows;
 }
 
-std::vector<std::vector<std::string>> comparison_table(const SampleReport& report,
-                                                       ColumnFilter is_shown) {
-  std::vector<std::vector<std::string>> rows = {{"descriptor", "K-S by number", "p",
-                                                 "Wasserstein / deviation", "p", "K-S by mass", "p",
-                                                 "Wasserstein / deviation", "p"}};
+Rows comparison_table(const SampleReport& report, ColumnFilter is_shown) {
+  Rows rows = {{"descriptor", "K-S by number", "p", "Wasserstein / deviation", "p", "K-S by mass",
+                "p", "Wasserstein / deviation", "p"}};
   for (const ColumnComparison& row : report.comparison) {
     if (row.column.name != "size" && !is_shown(row.column.name)) continue;
     std::vector<std::string> cells = {heading_in_words(row.column)};
@@ -309,9 +307,8 @@ std::string shown_error(double percent) {
   return percent < 1e-9 ? "exact" : format_number(percent, 3);
 }
 
-std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels,
-                                                   ColumnFilter is_shown) {
-  std::vector<std::vector<std::string>> rows = {{"median, 90 % of the errors"}};
+Rows levels_table(const DetailLevels& levels, ColumnFilter is_shown) {
+  Rows rows = {{"median, 90 % of the errors"}};
   for (const double nodes : levels.nodes) rows[0].push_back("N = " + format_number(nodes, 4));
   rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
   for (const DescriptorLevels& row : levels.rows) {
@@ -328,10 +325,9 @@ std::vector<std::vector<std::string>> levels_table(const DetailLevels& levels,
   return rows;
 }
 
-std::vector<std::vector<std::string>> trends_table(const ReportedSample& one) {
-  std::vector<std::vector<std::string>> rows = {
-      {"correlation with size", "grains resolved", "raw", "corrected",
-       "grains from " + format_number(least_trusted_across, 3) + " voxels", "corrected"}};
+Rows trends_table(const ReportedSample& one) {
+  Rows rows = {{"correlation with size", "grains resolved", "raw", "corrected",
+                "grains from " + format_number(least_trusted_across, 3) + " voxels", "corrected"}};
   for (const VoxelTrend& trend : one.trends) {
     rows.push_back({words_of(trend.name), std::to_string(trend.count), with_interval(trend.raw),
                     with_interval(trend.corrected), std::to_string(trend.trusted_count),
@@ -385,7 +381,7 @@ void add_introduction(HtmlDocument& page, const SampleReport& report) {
 /// Adds the kinds of warnings if they are fewer than the grains.
 void add_kinds(HtmlDocument& page, const SampleSummary& batch) {
   if (batch.warning_kinds.size() >= batch.with_warnings) return;
-  std::vector<std::vector<std::string>> rows = {{"warning", "grains", "first"}};
+  Rows rows = {{"warning", "grains", "first"}};
   for (const WarningKind& one : batch.warning_kinds) {
     rows.push_back({one.kind, std::to_string(one.grains), one.first});
   }
@@ -395,7 +391,7 @@ void add_kinds(HtmlDocument& page, const SampleSummary& batch) {
 void add_messages(HtmlDocument& page, const char* column, const std::vector<GrainMessage>& messages,
                   std::size_t count) {
   if (count == 0) return;
-  std::vector<std::vector<std::string>> rows = {{"grain", column}};
+  Rows rows = {{"grain", column}};
   for (const auto& [grain, message] : messages) rows.push_back({grain, message});
   if (rows.size() <= most_open_rows) {
     page.add_rows(rows, RowKind::Typed);
@@ -435,9 +431,8 @@ void add_histograms(HtmlDocument& page, const SampleSummary& batch) {
   std::vector<Figure> figures;
   for (const SampleDistribution& one : batch.distributions) {
     if (one.values.empty() || !one.in_log || !is_spread(one)) continue;
-    const std::string axis = one.unit.empty() ? one.label : one.label + ", " + one.unit;
     figures.push_back(
-        {histogram_figure(axis, "grains", {{"", "#0a58b4", histogram_of(one.values)}}),
+        {histogram_figure(with_unit(one), "grains", {{"", "#0a58b4", histogram_of(one.values)}}),
          capitalised(one.label) + " of " + std::to_string(one.values.size()) +
              " grains, half of them below " + format_number(quantile(one.values, 0.5), 4) + "."});
   }

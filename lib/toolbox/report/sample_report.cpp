@@ -94,8 +94,7 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
   lines.push_back("Size: " + one.sample.size_name +
                   (one.sample.size_unit.empty() ? "" : ", " + one.sample.size_unit));
   lines.push_back("Mass of all grains: " + short_number(one.statistics.mass));
-  std::vector<std::vector<std::string>> rows = {
-      {"", "by mass", "95 % from", "to", "by number", "95 % from", "to"}};
+  Rows rows = {{"", "by mass", "95 % from", "to", "by number", "95 % from", "to"}};
   for_each_size(one.statistics, [&](const char* name, const Estimate& mass, const Estimate& count) {
     rows.push_back({name, short_number(mass.value), short_number(mass.lower),
                     short_number(mass.upper), short_number(count.value), short_number(count.lower),
@@ -114,8 +113,7 @@ void append_sample(const ReportedSample& one, std::vector<std::string>& lines) {
 }
 
 Rows comparison_rows(const SampleReport& report, const IsShown& is_shown) {
-  std::vector<std::vector<std::string>> rows = {
-      {"by number", "K-S distance", "p", "Wasserstein / deviation", "p"}};
+  Rows rows = {{"by number", "K-S distance", "p", "Wasserstein / deviation", "p"}};
   for (const ColumnComparison& row : report.comparison) {
     if (row.column.name != "size" && !is_shown(row.column.name)) continue;
     const SampleDistance& d = row.by_number;
@@ -129,14 +127,13 @@ Rows level_rows(const DetailLevels& levels, const IsShown& is_shown) {
   // Four columns fit a terminal's line.
   const std::size_t shown = std::min<std::size_t>(levels.nodes.size(), 4);
   const std::size_t first = levels.nodes.size() - shown;
-  std::vector<std::vector<std::string>> rows = {{"90 % of errors, %"}};
+  Rows rows = {{"90 % of errors, %"}};
   for (std::size_t k = first; k < levels.nodes.size(); ++k) {
     rows[0].push_back("N " + short_number(levels.nodes[k]));
   }
   rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
   for (const DescriptorLevels& row : levels.rows) {
-    if (row.levels.back().count == 0) continue;
-    if (!is_shown(row.name)) continue;
+    if (row.levels.back().count == 0 || !is_shown(row.name)) continue;
     std::vector<std::string> cells = {row.name};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
       // An error this small is rounding.
@@ -391,17 +388,10 @@ std::string sample_csv(const SampleReport& report) {
 
 void write_sample_report(const std::string& path, const SampleReport& report,
                          const Execution& execution) {
-  switch (report_format(path)) {
-    case ReportFormat::Page:
-      write_file(path, sample_html(report, execution));
-      return;
-    case ReportFormat::Document:
-      write_file(path, sample_json(report));
-      return;
-    case ReportFormat::Row:
-      write_file(path, sample_csv(report));
-      return;
-  }
+  const ReportFormat format = report_format(path);
+  write_file(path, format == ReportFormat::Page       ? sample_html(report, execution)
+                   : format == ReportFormat::Document ? sample_json(report)
+                                                      : sample_csv(report));
 }
 
 }  // namespace wscvt

@@ -55,10 +55,6 @@ constexpr Source sources[] = {
      nullptr},
 };
 
-[[noreturn]] void refuse_table(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InvalidInput, "\"" + path + "\" " + what);
-}
-
 double number_of(const std::string& field) {
   double value = std::numeric_limits<double>::quiet_NaN();
   std::from_chars(field.data(), field.data() + field.size(), value);
@@ -70,10 +66,6 @@ double deviation_of(const std::vector<double>& values) { return Distribution(val
 
 double first_of(const std::vector<double>& values) { return quantile(values, 0.0); }
 double last_of(const std::vector<double>& values) { return quantile(values, 1.0); }
-
-std::string with_unit(const SampleDistribution& one) {
-  return one.unit.empty() ? one.label : one.label + ", " + one.unit;
-}
 
 /// Formats a number of a row. An error this small is rounding.
 std::string shown(const SampleDistribution& one, double value, int digits) {
@@ -173,13 +165,13 @@ SampleSummary summarise_table(const std::string& path) {
   InputFile stream(path);
   CsvReader reader(stream);
   std::vector<std::string> fields;
-  if (!reader.next(fields)) refuse_table(path, "is empty. Give a table that batch wrote.");
+  if (!reader.next(fields)) refuse("\"" + path + "\" is empty. Give a table that batch wrote.");
   const std::vector<std::string> header = fields;
   const auto place_of = [&](const char* name) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      refuse_table(path, std::string("has no column ") + name +
-                             ", so it is not a table of a sample. Give a table that batch wrote.");
+      refuse("\"" + path + "\" has no column " + name +
+             ", so it is not a table of a sample. Give a table that batch wrote.");
     }
     return static_cast<std::size_t>(found - header.begin());
   };
@@ -202,9 +194,9 @@ SampleSummary summarise_table(const std::string& path) {
   const std::size_t distance = place_of("rms_distance.percent_of_equivalent_radius");
   while (reader.next(fields)) {
     if (fields.size() != header.size()) {
-      refuse_table(path, "has " + std::to_string(fields.size()) + " fields in row " +
-                             std::to_string(summary.grains + 1) + " and " +
-                             std::to_string(header.size()) + " columns. Create it again.");
+      refuse("\"" + path + "\" has " + std::to_string(fields.size()) + " fields in row " +
+             std::to_string(summary.grains + 1) + " and " + std::to_string(header.size()) +
+             " columns. Create it again.");
     }
     ++summary.grains;
     if (fields[status] != "done") {
@@ -232,7 +224,7 @@ SampleSummary summarise_table(const std::string& path) {
     }
   }
   if (reader.is_cut()) {
-    refuse_table(path, "ends within a row. Run its batch command again to complete it.");
+    refuse("\"" + path + "\" ends within a row. Run its batch command again to complete it.");
   }
   for (SampleDistribution& one : summary.distributions) {
     std::sort(one.values.begin(), one.values.end());
@@ -339,12 +331,16 @@ std::vector<std::vector<std::string>> quantity_table(const SampleSummary& summar
   for (const SampleDistribution& one : summary.distributions) {
     if (one.values.empty()) continue;
     rows.push_back({with_unit(one), shown(one, mean_of(one.values), 4),
-                    shown(one, deviation_of(one.values), 4), shown(one, first_of(one.values), 4),
-                    shown(one, quantile(one.values, 0.1), 4),
-                    shown(one, quantile(one.values, 0.5), 4),
-                    shown(one, quantile(one.values, 0.9), 4), shown(one, last_of(one.values), 4)});
+                    shown(one, deviation_of(one.values), 4)});
+    for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
+      rows.back().push_back(shown(one, quantile(one.values, share), 4));
+    }
   }
   return rows;
+}
+
+std::string with_unit(const SampleDistribution& one) {
+  return one.unit.empty() ? one.label : one.label + ", " + one.unit;
 }
 
 bool is_spread(const SampleDistribution& one) {

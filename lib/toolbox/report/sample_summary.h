@@ -97,6 +97,9 @@ std::string options_line(const SampleSummary& summary);
 /// Returns a table's rows: mean, standard deviation and quantiles of each distribution.
 std::vector<std::vector<std::string>> quantity_table(const SampleSummary& summary);
 
+/// Returns the label of a distribution with its unit.
+std::string with_unit(const SampleDistribution& one);
+
 /// Whether the values differ by more than rounding.
 bool is_spread(const SampleDistribution& one);
 

@@ -28,10 +28,6 @@ const std::string* failure_of(const std::vector<std::string>& fields) {
   return nullptr;
 }
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  refuse("\"" + path + "\" " + what);
-}
-
 /// Joins the fields and the record `rest` into one record.
 std::string before(const std::vector<std::string>& fields, const std::string& rest) {
   const std::string record = csv_record(fields);
@@ -93,15 +89,15 @@ SampleTable::SampleTable(const std::string& path, const std::string& header,
   CsvReader reader(stream);
   std::vector<std::string> fields;
   if (reader.next(fields) && reader.text() != header) {
-    fail(path, "is not a table with this batch's columns. Give another folder.");
+    refuse("\"" + path + "\" is not a table with this batch's columns. Give another folder.");
   }
   for (std::size_t begin = reader.size(); reader.next(fields); begin = reader.size()) {
     const std::string expected =
         rows_.size() < grains.size() ? csv_field(grains[rows_.size()]) : "nothing";
     if (fields.front() != expected) {
-      fail(path, "has \"" + fields.front() + "\" in row " + std::to_string(rows_.size() + 1) +
-                     ", but the inputs have " + expected +
-                     ". The table is from other inputs. Give those, or another folder.");
+      refuse("\"" + path + "\" has \"" + fields.front() + "\" in row " +
+             std::to_string(rows_.size() + 1) + ", but the inputs have " + expected +
+             ". The table is from other inputs. Give those, or another folder.");
     }
     rows_.push_back({begin, failure_of(fields) != nullptr});
   }

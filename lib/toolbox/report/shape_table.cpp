@@ -125,6 +125,26 @@ std::vector<std::string> columns_of(const ShapeMeasures& measures) {
   return names;
 }
 
+/// Returns a value of a column; NaN if there is no such column.
+double value_of(const GrainTable& table, std::size_t grain, const std::string& column) {
+  const std::optional<std::size_t> found = table.find(column);
+  return found ? table.values(static_cast<Eigen::Index>(grain), static_cast<Eigen::Index>(*found))
+               : std::nan("");
+}
+
+/// Returns the finite values, sorted.
+std::vector<double> ascending(std::vector<double> values) {
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double value) { return !std::isfinite(value); }),
+               values.end());
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+std::string of_grains(std::size_t count, std::size_t all) {
+  return std::to_string(count) + " of " + std::to_string(all) + " grains";
+}
+
 }  // namespace
 
 std::string shape_header(const ShapeMeasures& measures) { return csv_record(columns_of(measures)); }
@@ -157,50 +177,18 @@ std::string failed_shape_row(const std::string& grain, const std::string& error,
   return csv_record(fields);
 }
 
-namespace {
-
-/// Finite values of a column, in the order of the grains; NaN if there is no such column.
-class Columns {
- public:
-  explicit Columns(const GrainTable& table) : table_(table) {}
-
-  double at(std::size_t grain, const std::string& name) const {
-    const std::optional<std::size_t> column = table_.find(name);
-    return column
-               ? table_.values(static_cast<Eigen::Index>(grain), static_cast<Eigen::Index>(*column))
-               : std::nan("");
-  }
-
- private:
-  const GrainTable& table_;
-};
-
-std::vector<double> ascending(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(),
-                              [](double value) { return !std::isfinite(value); }),
-               values.end());
-  std::sort(values.begin(), values.end());
-  return values;
-}
-
-std::string of_grains(std::size_t count, std::size_t all) {
-  return std::to_string(count) + " of " + std::to_string(all) + " grains";
-}
-
-}  // namespace
-
 std::vector<std::string> voxel_lines(const GrainTable& shapes) {
-  const Columns columns(shapes);
+  const auto value = [&](std::size_t grain, const std::string& column) {
+    return value_of(shapes, grain, column);
+  };
   const std::size_t all = shapes.grains.size();
   std::vector<double> across;
   std::vector<double> enough;
   std::size_t too_many = 0;
   for (std::size_t k = 0; k < all; ++k) {
-    across.push_back(columns.at(k, "resolution.voxels_across"));
-    const double nodes =
-        resolved_nodes(columns.at(k, "scan.area"), columns.at(k, "resolution.voxel_size"));
-    enough.push_back(nodes);
-    if (columns.at(k, "nodes") > nodes) ++too_many;
+    across.push_back(value(k, "resolution.voxels_across"));
+    enough.push_back(resolved_nodes(value(k, "scan.area"), value(k, "resolution.voxel_size")));
+    if (value(k, "nodes") > enough.back()) ++too_many;
   }
   across = ascending(std::move(across));
   if (across.empty()) return {};
@@ -216,8 +204,8 @@ std::vector<std::string> voxel_lines(const GrainTable& shapes) {
     std::vector<double> one;
     for (std::size_t k = 0; k < all; ++k) {
       one.push_back(
-          relative_error_percent(columns.at(k, std::string("scan.") + key),
-                                 columns.at(k, std::string("resolution.") + key + ".corrected")));
+          relative_error_percent(value(k, std::string("scan.") + key),
+                                 value(k, std::string("resolution.") + key + ".corrected")));
     }
     one = ascending(std::move(one));
     if (!one.empty()) errors.push_back(name + (" " + error_text(quantile(one, 0.5))));

@@ -39,10 +39,14 @@ double side_of(const std::vector<Vector3>& points, std::int32_t from, std::int32
   return swapped ? -side : side;
 }
 
+std::array<Vector3, 3> corners_of(const std::vector<Vector3>& points, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  return {points[a], points[b], points[c]};
+}
+
 void append_crossings(const std::vector<Vector3>& points, const Triangle& triangle,
                       std::vector<Crossing>& crossings) {
-  std::array<Vector3, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) corners[k] = points[static_cast<std::size_t>(triangle[k])];
+  const std::array<Vector3, 3> corners = corners_of(points, triangle);
   const auto [y0, y1] = std::minmax({corners[0][1], corners[1][1], corners[2][1]});
   const auto [z0, z1] = std::minmax({corners[0][2], corners[1][2], corners[2][2]});
   const auto first = [](double low) { return static_cast<std::int32_t>(std::ceil(low - 0.5)); };
@@ -72,9 +76,7 @@ std::optional<double> lattice_plane(const IndexedMesh& mesh, double voxel_size, 
   double cosines = 0.0;
   double sines = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
-    std::array<Vector3, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = mesh.points[static_cast<std::size_t>(triangle[k])];
+    const std::array<Vector3, 3> corners = corners_of(mesh.points, triangle);
     const Vector3 normal = doubled_area_normal(corners[0], corners[1], corners[2]);
     const double square = normal.squaredNorm();
     if (square == 0.0) continue;
@@ -112,8 +114,7 @@ std::vector<VoxelStretch> mesh_voxels(const IndexedMesh& mesh, double voxel_size
   }
   constexpr double most = 20000.0;
   if (!points.empty() && !((greatest - least).maxCoeff() < most)) {
-    throw Error(ErrorCode::InvalidInput,
-                "The grain is more than 20000 voxels long. Check the size of a voxel.");
+    refuse("The grain is more than 20000 voxels long. Check the size of a voxel.");
   }
   for (Vector3& point : points) point += pose.shift - least;
 
@@ -148,10 +149,7 @@ std::vector<VoxelStretch> mesh_voxels(const IndexedMesh& mesh, double voxel_size
 
 IndexedMesh surface_of_voxels(const std::vector<VoxelStretch>& voxels, int passes,
                               double voxel_size) {
-  if (voxels.empty()) {
-    throw Error(ErrorCode::InvalidInput,
-                "The grain is thinner than its voxels. Check the size of a voxel.");
-  }
+  if (voxels.empty()) refuse("The grain is thinner than its voxels. Check the size of a voxel.");
   VolumeGeometry geometry;
   geometry.axes *= voxel_size;
   return smoothed_surface(voxel_surface(voxels), passes, geometry);

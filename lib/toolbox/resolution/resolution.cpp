@@ -110,7 +110,7 @@ void take_poses(const std::array<std::optional<Rows>, pose_count>& again, std::s
 Resolution measure_resolution(const IndexedMesh& mesh, const DetailedDescriptors& descriptors,
                               const ResolutionOptions& options, const Execution& execution) {
   if (!(options.voxel_size > 0.0) || !std::isfinite(options.voxel_size)) {
-    throw Error(ErrorCode::InvalidInput, "The size of a voxel must be a number above 0.");
+    refuse("The size of a voxel must be a number above 0.");
   }
   Resolution result;
   result.voxel_size = options.voxel_size;
