@@ -8,15 +8,8 @@ namespace wscvt {
 
 namespace {
 
-std::string text_of(const std::vector<std::int64_t>& counts) {
-  std::string text;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    text += (k == 0 ? "" : " x ") + std::to_string(counts[k]);
-  }
-  return text;
-}
-
 constexpr int channel_role = -2;
+constexpr std::int64_t most_channels = 8;
 
 /// Returns the conventional roles of dimensions.
 std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
@@ -31,7 +24,6 @@ std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
     const std::size_t last = long_ones.back();
     const std::int64_t shortest = std::min(
         {counts[long_ones.end()[-2]], counts[long_ones.end()[-3]], counts[long_ones.end()[-4]]});
-    constexpr std::int64_t most_channels = 8;
     if (counts[last] <= most_channels && 2 * counts[last] < shortest) {
       roles[last] = channel_role;
       end = last;
@@ -49,15 +41,23 @@ std::vector<int> usual_roles(const std::vector<std::int64_t>& counts) {
 
 }  // namespace
 
+std::string text_of_counts(const std::vector<std::int64_t>& counts) {
+  std::string text;
+  for (const std::int64_t count : counts) {
+    text += (text.empty() ? "" : " x ") + std::to_string(count);
+  }
+  return text;
+}
+
 void refuse_channels_inside(const std::vector<std::int64_t>& counts, const std::string& path) {
   std::vector<std::int64_t> all;
   for (const std::int64_t count : counts) {
     if (count > 1) all.push_back(count);
   }
-  constexpr std::int64_t most_channels = 8;
   if (all.size() != 4 || all[1] > most_channels) return;
   if (2 * all[1] >= std::min({all[0], all[2], all[3]})) return;
-  refuse_volume(path, "holds an array of " + text_of(counts) + ", whose " + std::to_string(all[1]) +
+  refuse_volume(path, "holds an array of " + text_of_counts(counts) + ", whose " +
+                          std::to_string(all[1]) +
                           " places between the others are channels rather than slices. Save one "
                           "of them alone, in Python numpy.save(\"one.npy\", array[:, 0]).");
 }
@@ -66,7 +66,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
                              const std::string& path) {
   if (shape.counts.size() < 3) {
     const std::string held =
-        shape.counts.empty() ? "one number" : "an array of " + text_of(shape.counts);
+        shape.counts.empty() ? "one number" : "an array of " + text_of_counts(shape.counts);
     refuse_volume(path, "holds " + held + ", but a volume needs three dimensions.");
   }
   if (shape.roles.empty()) refuse_channels_inside(shape.counts, path);
@@ -90,7 +90,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
   std::array<Eigen::Index, 3> sorted = volume.geometry.order;
   std::sort(sorted.begin(), sorted.end());
   if (of_space != 3 || sorted != std::array<Eigen::Index, 3>{0, 1, 2}) {
-    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
+    refuse_volume(path, "holds an array of " + text_of_counts(shape.counts) +
                             " whose dimensions are not x, y and z. Save one volume.");
   }
   std::size_t frames = 0;
@@ -98,7 +98,7 @@ ShapedVolume volume_of_shape(const ArrayShape& shape, const VolumeChoice& choice
     frames += axis.kind == AxisKind::Frame && axis.count > 1 ? 1 : 0;
   }
   if (frames > 1) {
-    refuse_volume(path, "holds an array of " + text_of(shape.counts) +
+    refuse_volume(path, "holds an array of " + text_of_counts(shape.counts) +
                             " with more than one dimension besides space. Save only one volume.");
   }
   volume.picks = picks_of(volume.axes, choice, path);

@@ -103,17 +103,9 @@ void ByteOrderCheck::take_values(const char* bytes) {
 }
 
 void ByteOrderCheck::take(const char* bytes) {
-  if (type_.is_float)
-    return type_.bytes == 4 ? take_values<float>(bytes) : take_values<double>(bytes);
-  if (type_.bytes == 2) {
-    return type_.has_sign ? take_values<std::int16_t>(bytes) : take_values<std::uint16_t>(bytes);
-  }
-  if (type_.bytes == 4) {
-    return type_.has_sign ? take_values<std::int32_t>(bytes) : take_values<std::uint32_t>(bytes);
-  }
-  if (type_.bytes == 8) {
-    return type_.has_sign ? take_values<std::int64_t>(bytes) : take_values<std::uint64_t>(bytes);
-  }
+  visit_number_type(type_, [&](auto number) {
+    if constexpr (sizeof(number) > 1) take_values<decltype(number)>(bytes);
+  });
 }
 
 bool ByteOrderCheck::is_swapped() const {

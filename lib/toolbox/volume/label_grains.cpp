@@ -76,8 +76,8 @@ Sentence LabelGrains::none_taken() const {
            " too small";
     advice += (cut > 0 ? " or a smaller " : "a smaller ") + mention(smallest_option);
   }
-  return "No label is a grain to mesh: of " + std::to_string(labels_.size()) +
-         (labels_.size() == 1 ? " label " : " labels ") + why + ". Give " + advice + ".";
+  return "No label is a grain to mesh: of " + format_count(labels_.size(), "label") + " " + why +
+         ". Give " + advice + ".";
 }
 
 void LabelGrains::find_labels(bool anew, const Execution& execution) {
@@ -136,14 +136,12 @@ LabelVolume& LabelGrains::voxels() {
   return *volume_;
 }
 
-void LabelGrains::begin_again() {
-  for (auto& [label, stretches] : at_work_) stretches.clear();
-  volume_->rewind();
-  next_slice_ = 0;
-}
-
 void LabelGrains::read_to(std::int32_t slice, const Execution& execution) {
-  if (is_behind_) begin_again();
+  if (is_behind_) {
+    for (auto& [label, stretches] : at_work_) stretches.clear();
+    volume_->rewind();
+    next_slice_ = 0;
+  }
   is_behind_ = true;  // in case the following code throws
   for (; next_slice_ < slice; ++next_slice_) {
     execution.report(0.0, "Reading the volume");

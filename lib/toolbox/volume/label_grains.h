@@ -123,7 +123,6 @@ class LabelGrains {
   void find_labels(bool anew, const Execution& execution);
   std::vector<VoxelStretch> stretches_of(std::size_t grain, const Execution& execution);
   void read_to(std::int32_t slice, const Execution& execution);
-  void begin_again();
 
   VolumeOptions options_;
   std::vector<Sentence> warnings_;

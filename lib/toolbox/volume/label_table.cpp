@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <utility>
+#include <Eigen/Geometry>
 
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/text_format.h"
@@ -18,18 +18,16 @@ std::string state_text(LabelState state, const LabelOutcome& outcome) {
   return "written";
 }
 
-/// Returns the box of a label's voxels in the volume's coordinates: smallest and largest corner.
-std::pair<Vector3, Vector3> box_of(const LabelExtent& label, const VolumeGeometry& geometry) {
-  std::pair<Vector3, Vector3> box;
+/// Returns the box of a label's voxels in the volume's coordinates.
+Eigen::AlignedBox3d box_of(const LabelExtent& label, const VolumeGeometry& geometry) {
+  Eigen::AlignedBox3d box;
   for (unsigned k = 0; k < 8; ++k) {
     Vector3 lattice;
     for (unsigned axis = 0; axis < 3; ++axis) {
       const VoxelCounts& side = (k >> axis & 1U) != 0 ? label.end : label.begin;
       lattice[axis] = side[axis];
     }
-    const Vector3 point = geometry.point(lattice);
-    box.first = k == 0 ? point : Vector3(box.first.cwiseMin(point));
-    box.second = k == 0 ? point : Vector3(box.second.cwiseMax(point));
+    box.extend(geometry.point(lattice));
   }
   return box;
 }
@@ -58,20 +56,19 @@ std::string label_row(const std::string& volume, const LabelGrains& grains,
                                      std::to_string(label.voxels),
                                      format_exact(voxel * static_cast<double>(label.voxels)),
                                      geometry.unit};
-  const auto [least, most] = box_of(label, geometry);
-  for (const Vector3& corner : {least, most}) {
+  const Eigen::AlignedBox3d box = box_of(label, geometry);
+  for (const Vector3& corner : {box.min(), box.max()}) {
     for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
   }
   fields.push_back(std::to_string(label.pieces));
   fields.push_back(format_exact(label.left_out()));
-  if (outcome.grain == nullptr) {
+  if (outcome.grain == nullptr || outcome.grain->mesh.points.empty()) {
     fields.insert(fields.end(), 3, "");
   } else {
     const LabelGrain& grain = *outcome.grain;
-    const bool is_made = !grain.mesh.points.empty();
-    fields.push_back(is_made ? format_exact(voxel * static_cast<double>(grain.enclosed)) : "");
-    fields.push_back(is_made ? std::to_string(grain.mesh.points.size()) : "");
-    fields.push_back(is_made ? std::to_string(grain.mesh.triangles.size()) : "");
+    fields.push_back(format_exact(voxel * static_cast<double>(grain.enclosed)));
+    fields.push_back(std::to_string(grain.mesh.points.size()));
+    fields.push_back(std::to_string(grain.mesh.triangles.size()));
   }
   fields.push_back(outcome.file);
   return csv_record(fields);

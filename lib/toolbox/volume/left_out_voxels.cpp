@@ -114,45 +114,6 @@ bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCou
   return reaches_across && static_cast<double>(gaps) < most_gaps * static_cast<double>(left);
 }
 
-}  // namespace
-
-std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution) {
-  const VoxelCounts& counts = scan.geometry().counts;
-  const Corners corners = corners_of(scan, execution.part(0.0, 0.5));
-  std::pair<Label, std::size_t> most = {0, 0};
-  for (const auto& [value, count] : corners.values) {
-    if (value != 0 && count > most.second) most = {value, count};
-  }
-  // A few slices at an end may be filled, or one side.
-  const bool is_filled = 20 * most.second > corners.all;
-  if (!is_filled && !corners.has_nan) return {};
-  std::vector<std::uint8_t> nan;
-  std::vector<std::uint8_t> filled;
-  for_each_row(scan, execution.part(0.5, 1.0), "Reading the volume",
-               [&](const std::vector<Label>& row) {
-                 for (const Label value : row) {
-                   if (corners.has_nan) nan.push_back(value == 0 ? 2 : 0);
-                   if (is_filled) filled.push_back(value == most.first ? 2 : 0);
-                 }
-               });
-  keep_connected_to_border(nan, counts);
-  keep_connected_to_border(filled, counts);
-  const auto count_of = [](const std::vector<std::uint8_t>& marks) {
-    return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
-  };
-  constexpr std::size_t fewest = 200;  // of so many voxels one
-  const std::size_t found = count_of(filled);
-  if (found * fewest < filled.size() || found == filled.size() || !hangs_together(filled, counts) ||
-      !leaves_a_convex_body(filled, counts)) {
-    filled.clear();
-  }
-  if (count_of(nan) == 0) return filled;
-  for (std::size_t k = 0; k < filled.size(); ++k) nan[k] |= filled[k];
-  return nan;
-}
-
-namespace {
-
 /// One of the six sides of a volume, and the rays from it, one from each of its voxels.
 struct RaySide {
   std::size_t across;  ///< voxels along a ray
@@ -351,6 +312,41 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution) {
+  const VoxelCounts& counts = scan.geometry().counts;
+  const Corners corners = corners_of(scan, execution.part(0.0, 0.5));
+  std::pair<Label, std::size_t> most = {0, 0};
+  for (const auto& [value, count] : corners.values) {
+    if (value != 0 && count > most.second) most = {value, count};
+  }
+  // A few slices at an end may be filled, or one side.
+  const bool is_filled = 20 * most.second > corners.all;
+  if (!is_filled && !corners.has_nan) return {};
+  std::vector<std::uint8_t> nan;
+  std::vector<std::uint8_t> filled;
+  for_each_row(scan, execution.part(0.5, 1.0), "Reading the volume",
+               [&](const std::vector<Label>& row) {
+                 for (const Label value : row) {
+                   if (corners.has_nan) nan.push_back(value == 0 ? 2 : 0);
+                   if (is_filled) filled.push_back(value == most.first ? 2 : 0);
+                 }
+               });
+  keep_connected_to_border(nan, counts);
+  keep_connected_to_border(filled, counts);
+  const auto count_of = [](const std::vector<std::uint8_t>& marks) {
+    return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
+  };
+  constexpr std::size_t fewest = 200;  // of so many voxels one
+  const std::size_t found = count_of(filled);
+  if (found * fewest < filled.size() || found == filled.size() || !hangs_together(filled, counts) ||
+      !leaves_a_convex_body(filled, counts)) {
+    filled.clear();
+  }
+  if (count_of(nan) == 0) return filled;
+  for (std::size_t k = 0; k < filled.size(); ++k) nan[k] |= filled[k];
+  return nan;
+}
 
 ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelCounts& counts,
                              const Vector3& spacing, const Execution& execution) {

@@ -28,38 +28,6 @@ Clamped clamped_at(const GreyLevel& level) {
           static_cast<std::int32_t>(std::floor(level.value + half))};
 }
 
-}  // namespace
-
-double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
-               const VoxelCounts& counts, const GreyLevel& level) {
-  const Clamped clamped = clamped_at(level);
-  std::uint64_t sum = 0;
-  std::uint64_t pairs = 0;
-  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
-    if ((grey[a] < level.value) == (grey[b] < level.value)) return;
-    if (is_marked(outside, a) || is_marked(outside, b)) return;
-    sum += static_cast<std::uint64_t>(std::abs(clamped(grey[a]) - clamped(grey[b])));
-    ++pairs;
-  });
-  if (pairs == 0 || sum == 0) return 0.0;
-  // By tenths of a voxel of a Gaussian blur s: the mean difference over all places and directions
-  // of an edge, 4 times the integral of (1 - v) (Phi(v / s) - 1 / 2) over v from 0 to 1.
-  constexpr std::array<double, 16> differences = {1.0,    0.8504, 0.7208, 0.6113, 0.5213, 0.4492,
-                                                  0.3919, 0.3461, 0.3091, 0.2788, 0.2536, 0.2323,
-                                                  0.2143, 0.1988, 0.1853, 0.1735};
-  const double difference =
-      static_cast<double>(sum) / static_cast<double>(pairs) / (clamped.most - clamped.least);
-  // Beyond the table, an edge is straight within a voxel.
-  if (difference < differences.back()) return 2.0 / (3.0 * std::sqrt(2.0 * pi) * difference);
-  std::size_t above = 1;
-  while (above + 1 < differences.size() && differences[above] > difference) ++above;
-  const double share =
-      (differences[above - 1] - difference) / (differences[above - 1] - differences[above]);
-  return 0.1 * (static_cast<double>(above - 1) + std::clamp(share, 0.0, 1.0));
-}
-
-namespace {
-
 /// Returns the sums over each voxel and its 26 neighbours; beyond the border, the border's values.
 std::vector<std::uint32_t> sums_of(const std::vector<std::uint16_t>& grey,
                                    const VoxelCounts& counts, const Clamped& clamped,
@@ -96,6 +64,34 @@ std::vector<std::uint32_t> sums_of(const std::vector<std::uint16_t>& grey,
 }
 
 }  // namespace
+
+double blur_at(const std::vector<std::uint16_t>& grey, const std::vector<std::uint8_t>& outside,
+               const VoxelCounts& counts, const GreyLevel& level) {
+  const Clamped clamped = clamped_at(level);
+  std::uint64_t sum = 0;
+  std::uint64_t pairs = 0;
+  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
+    if ((grey[a] < level.value) == (grey[b] < level.value)) return;
+    if (is_marked(outside, a) || is_marked(outside, b)) return;
+    sum += static_cast<std::uint64_t>(std::abs(clamped(grey[a]) - clamped(grey[b])));
+    ++pairs;
+  });
+  if (pairs == 0 || sum == 0) return 0.0;
+  // By tenths of a voxel of a Gaussian blur s: the mean difference over all places and directions
+  // of an edge, 4 times the integral of (1 - v) (Phi(v / s) - 1 / 2) over v from 0 to 1.
+  constexpr std::array<double, 16> differences = {1.0,    0.8504, 0.7208, 0.6113, 0.5213, 0.4492,
+                                                  0.3919, 0.3461, 0.3091, 0.2788, 0.2536, 0.2323,
+                                                  0.2143, 0.1988, 0.1853, 0.1735};
+  const double difference =
+      static_cast<double>(sum) / static_cast<double>(pairs) / (clamped.most - clamped.least);
+  // Beyond the table, an edge is straight within a voxel.
+  if (difference < differences.back()) return 2.0 / (3.0 * std::sqrt(2.0 * pi) * difference);
+  std::size_t above = 1;
+  while (above + 1 < differences.size() && differences[above] > difference) ++above;
+  const double share =
+      (differences[above - 1] - difference) / (differences[above - 1] - differences[above]);
+  return 0.1 * (static_cast<double>(above - 1) + std::clamp(share, 0.0, 1.0));
+}
 
 std::vector<std::uint8_t> level_mask(const std::vector<std::uint16_t>& grey,
                                      const std::vector<std::uint8_t>& outside,

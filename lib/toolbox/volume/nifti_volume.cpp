@@ -16,6 +16,7 @@
 
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/byte_reader.h"
 #endif
 
 namespace wscvt {
@@ -33,13 +34,11 @@ VoxelType type_of(int code, const std::string& path) {
 
 /// Reads a signed whole number from a header.
 std::int64_t number_at(const std::string& head, std::size_t place, std::size_t size, bool big) {
-  std::uint64_t value = 0;
-  for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t from = place + (big ? k : size - 1 - k);
-    value = value << 8 | static_cast<unsigned char>(head[from]);
-  }
-  const std::size_t spare = 64 - 8 * size;
-  return static_cast<std::int64_t>(value << spare) >> spare;
+  return load_as<std::int64_t>(size == 2   ? Stored::Int16
+                               : size == 4 ? Stored::Int32
+                                           : Stored::Int64,
+                               big ? boost::endian::order::big : boost::endian::order::little,
+                               head.data() + place);
 }
 
 /// Refuses headers that libnifti2 would refuse, because it always prints this to the standard

@@ -266,9 +266,8 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
                      "Grains that touch it are parted from it at its thickness.");
   }
   if (segmentation.cut > 0) {
-    doubts.push_back(std::to_string(segmentation.cut) +
-                     (segmentation.cut == 1 ? " grain touches " : " grains touch ") +
-                     "voxels that were not scanned and may be cut. The labels do not have them.");
+    doubts.push_back(format_count(segmentation.cut, "grain touches", "grains touch") +
+                     " voxels that were not scanned and may be cut. The labels do not have them.");
   }
 }
 
@@ -418,7 +417,7 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
 std::vector<std::string> segmentation_lines(const Segmentation& segmentation) {
   const std::size_t count = segmentation.grains.size() + segmentation.cut;
   std::vector<std::string> lines = {
-      std::to_string(count) + (count == 1 ? " grain, " : " grains, ") +
+      format_count(count, "grain") + ", " +
       std::to_string(grains_at_border(segmentation) + segmentation.cut) + " of them at the border"};
   if (segmentation.not_scanned > 0) {
     lines.push_back(format_percent(share_of(segmentation.not_scanned, segmentation.voxels)) +

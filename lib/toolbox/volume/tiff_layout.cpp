@@ -16,6 +16,7 @@
 
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
@@ -214,10 +215,6 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   }
   std::string letters;
   if (json.contains("axes") && json["axes"].is_string()) letters = json["axes"].get<std::string>();
-  std::string text;
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    text += (k == 0 ? "" : " x ") + std::to_string(counts[k]);
-  }
   if (!letters.empty() && letters.size() != counts.size()) {
     refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
   }
@@ -227,7 +224,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   if (of_page == 0) {
     refuse_volume(path, "has pages of " + std::to_string(page.height) + " x " +
                             std::to_string(page.width) +
-                            " voxels, but the \"shape\" in its text, " + text +
+                            " voxels, but the \"shape\" in its text, " + text_of_counts(counts) +
                             ", does not end so. Export it again.");
   }
   const std::size_t slower = counts.size() - of_page;
@@ -252,7 +249,8 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   }
   layout.may_be_one_block = pages == 1 && product > 1;
   if (product != pages && !layout.may_be_one_block) {
-    refuse_volume(path, "has " + std::to_string(pages) + " pages, but its text gives " + text +
+    refuse_volume(path, "has " + std::to_string(pages) + " pages, but its text gives " +
+                            text_of_counts(counts) +
                             " voxels. If it holds several volumes, save the labels alone.");
   }
   return layout;
@@ -444,8 +442,8 @@ OmeImage image_of_slices(const std::string& xml, const std::string& path, TiffLa
   int volumes = 0;
   for (const OmeImage& image : images) {
     const std::int64_t slices = count_of(image.pixels, "SizeZ", 1, 1, path);
-    names += (names.empty() ? "" : ", ") + in_quotes(image.name) + " of " + std::to_string(slices) +
-             (slices == 1 ? " slice" : " slices");
+    names += (names.empty() ? "" : ", ") + in_quotes(image.name) + " of " +
+             format_count(static_cast<std::size_t>(slices), "slice");
     if (slices == 1 && images.size() > 1) continue;
     ++volumes;
     found = &image;

@@ -16,12 +16,6 @@
 
 namespace wscvt {
 
-namespace {
-
-int pass_over(TIFF*, void*, const char*, const char*, va_list) { return 1; }
-
-}  // namespace
-
 TiffFile::TiffFile(const std::string& path) : path_(path) {
   // Refuses strips for which a damaged file claims more than they could unpack to.
   most_ = std::min<std::uint64_t>(1U << 30, 1100 * file_size(path) + (1 << 20));
@@ -29,6 +23,7 @@ TiffFile::TiffFile(const std::string& path) : path_(path) {
   if (options == nullptr) throw std::bad_alloc();
   TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(most_));
   TIFFOpenOptionsSetErrorHandlerExtR(options, note_error, this);
+  const auto pass_over = [](TIFF*, void*, const char*, const char*, va_list) { return 1; };
   TIFFOpenOptionsSetWarningHandlerExtR(options, pass_over, nullptr);
   // Not mapped to memory: the process would be killed where the file cannot be read.
   tiff_ = TIFFOpenExt(path.c_str(), "rm", options);

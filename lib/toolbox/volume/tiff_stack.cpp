@@ -15,10 +15,9 @@ namespace wscvt {
 
 namespace {
 
-/// Slices that are pages of one file, or files of one page.
+/// See volume_of_slices.
 class TiffStack : public LabelVolume {
  public:
-  /// `sample`: number of the selected sample of each voxel. Colours must be equal, alpha constant.
   TiffStack(const VolumeGeometry& geometry, const TiffPage& page, std::int64_t sample,
             std::vector<std::string> files, std::vector<SlicePage> slices)
       : LabelVolume(geometry),

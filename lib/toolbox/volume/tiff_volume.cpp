@@ -51,8 +51,9 @@ void add_notes(const TiffLayout& layout, const TiffPageList& pages, const TiffPa
   }
   for (const std::string& note : layout.more_notes) volume.add_note(note);
   if (pages.left_out > 0) {
-    volume.add_note("Left out: " + std::to_string(pages.left_out) + " reduced image" +
-                    (pages.left_out == 1 ? "" : "s") + " (preview, pyramid or mask).");
+    volume.add_note(
+        "Left out: " + format_count(static_cast<std::size_t>(pages.left_out), "reduced image") +
+        " (preview, pyramid or mask).");
   }
   if (pages.marked > 0) {
     volume.add_warning(std::to_string(pages.marked) +

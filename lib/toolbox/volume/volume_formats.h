@@ -112,6 +112,9 @@ struct ShapedVolume {
   std::vector<BlockPick> picks;
 };
 
+/// Returns "2 x 24 x 28 x 36".
+std::string text_of_counts(const std::vector<std::int64_t>& counts);
+
 /// Throws Error(InputOutput), naming the file, for counts that look like z, c, y, x, as PyTorch and
 /// others store channels: they would be taken for the slices of frames.
 void refuse_channels_inside(const std::vector<std::int64_t>& counts, const std::string& path);

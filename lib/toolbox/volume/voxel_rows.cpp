@@ -133,19 +133,10 @@ void load_row(const char* bytes, LabelCoding& coding, std::vector<Label>& row,
 template <boost::endian::order Order>
 void load_row(const char* bytes, const VoxelType& type, LabelCoding& coding,
               std::vector<Label>& row, const RowPlace& place) {
-  const auto load_one = [&](auto number) {
+  visit_number_type(type, [&](auto number) {
     if (coding.as_grey) return load_grey_row<decltype(number), Order>(bytes, coding.offset, row);
     load_row<decltype(number), Order>(bytes, coding, row, place);
-  };
-  const auto load_as = [&](auto with_sign, auto without_sign) {
-    if (type.has_sign) return load_one(with_sign);
-    load_one(without_sign);
-  };
-  if (type.is_float) return type.bytes == 4 ? load_one(float{}) : load_one(double{});
-  if (type.bytes == 1) return load_as(std::int8_t{}, std::uint8_t{});
-  if (type.bytes == 2) return load_as(std::int16_t{}, std::uint16_t{});
-  if (type.bytes == 4) return load_as(std::int32_t{}, std::uint32_t{});
-  load_as(std::int64_t{}, std::uint64_t{});
+  });
 }
 
 class VolumeOfBytes : public LabelVolume {

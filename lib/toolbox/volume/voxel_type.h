@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,20 @@ struct VoxelType {
   bool is_float = false;
   bool big_endian = false;
 };
+
+/// Calls visit(zero) with a number of the type in C++.
+template <class Visit>
+void visit_number_type(const VoxelType& type, const Visit& visit) {
+  const auto visit_whole = [&](auto with_sign, auto without_sign) {
+    if (type.has_sign) return visit(with_sign);
+    visit(without_sign);
+  };
+  if (type.is_float) return type.bytes == 4 ? visit(float{}) : visit(double{});
+  if (type.bytes == 1) return visit_whole(std::int8_t{}, std::uint8_t{});
+  if (type.bytes == 2) return visit_whole(std::int16_t{}, std::uint16_t{});
+  if (type.bytes == 4) return visit_whole(std::int32_t{}, std::uint32_t{});
+  visit_whole(std::int64_t{}, std::uint64_t{});
+}
 
 /// Returns the type for such a name, or nothing for other names.
 std::optional<VoxelType> known_voxel_type(std::string_view name);

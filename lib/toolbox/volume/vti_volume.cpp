@@ -18,6 +18,7 @@
 
 #include "toolbox/volume/header_file.h"
 #include "wscvt/base/error.h"
+#include "wscvt/mesh_files/byte_reader.h"
 #include "wscvt/mesh_files/text_fields.h"
 #endif
 
@@ -160,13 +161,11 @@ class VtkArrayBytes : public MadeBytes {
   std::uint64_t next_length() {
     std::array<char, 8> bytes{};
     const auto size = static_cast<std::size_t>(length_.bytes);
-    std::uint64_t value = 0;
     if (bytes_->read(bytes.data(), size) < size) refuse();
-    for (std::size_t k = 0; k < size; ++k) {
-      const std::size_t place = length_.big_endian ? k : size - 1 - k;
-      value = value << 8 | static_cast<unsigned char>(bytes[place]);
-    }
-    return value;
+    return load_as<std::uint64_t>(
+        size == 4 ? Stored::Uint32 : Stored::Uint64,
+        length_.big_endian ? boost::endian::order::big : boost::endian::order::little,
+        bytes.data());
   }
 
   void read_lengths() {
