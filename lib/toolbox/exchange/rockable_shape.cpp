@@ -2,11 +2,11 @@
 #include "toolbox/exchange/rockable_shape.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
@@ -107,12 +107,10 @@ Rounding rounding_by(double percent, const IndexedMesh& drawn_in, const Probes& 
 
 std::string text_of(const std::string& name, const IndexedMesh& corners, double radius,
                     const MassProperties& mass) {
-  Vector3 lowest = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 highest = -lowest;
+  Eigen::AlignedBox3d box;
   std::string points;
   for (const Vector3& corner : corners.points) {
-    lowest = lowest.cwiseMin(corner);
-    highest = highest.cwiseMax(corner);
+    box.extend(corner);
     points += vector_text(corner) + "\n";
   }
   std::size_t edge_count = 0;
@@ -129,15 +127,16 @@ std::string text_of(const std::string& name, const IndexedMesh& corners, double 
     faces += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) +
              "\n";
   }
-  const Vector3 extent = 0.5 * (highest - lowest) + Vector3::Constant(radius);
+  const Vector3 extent = 0.5 * box.sizes() + Vector3::Constant(radius);
   const Vector3 moments = mass.inertia_tensor.diagonal() / mass.volume;
   return "<\nname " + name + "\nradius " + format_exact(radius) + "\npreCompDone y\nnv " +
          std::to_string(corners.points.size()) + "\n" + points + "ne " +
          std::to_string(edge_count) + "\n" + edges + "nf " +
          std::to_string(corners.triangles.size()) + "\n" + faces + "obb.extent " +
          vector_text(extent) + "\nobb.e1 1 0 0\nobb.e2 0 1 0\nobb.e3 0 0 1\nobb.center " +
-         vector_text(0.5 * (lowest + highest)) + "\nposition 0 0 0\norientation 1 0 0 0\nvolume " +
-         format_exact(mass.volume) + "\nI/m " + vector_text(moments) + "\n>\n";
+         vector_text(0.5 * (box.min() + box.max())) +
+         "\nposition 0 0 0\norientation 1 0 0 0\nvolume " + format_exact(mass.volume) + "\nI/m " +
+         vector_text(moments) + "\n>\n";
 }
 
 }  // namespace

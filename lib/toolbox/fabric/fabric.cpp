@@ -20,6 +20,11 @@ namespace {
 
 constexpr double degree = pi / 180.0;
 
+Vector3 vector_of(const std::array<std::int64_t, 3>& numbers) {
+  return {static_cast<double>(numbers[0]), static_cast<double>(numbers[1]),
+          static_cast<double>(numbers[2])};
+}
+
 /// The lattice of voxels, in length.
 struct Lattice {
   Eigen::Matrix3d axes;        ///< columns
@@ -42,10 +47,9 @@ struct Lattice {
   }
 
   Vector3 area_vector(const std::array<std::int64_t, 3>& lines) const {
+    const Vector3 counts = vector_of(lines);
     Vector3 sum = Vector3::Zero();
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      sum += static_cast<double>(lines[static_cast<std::size_t>(k)]) * faces.col(k);
-    }
+    for (Eigen::Index k = 0; k < 3; ++k) sum += counts[k] * faces.col(k);
     return sum;
   }
 };
@@ -63,12 +67,10 @@ PointPlane plane_of(const PointSums& sums, const Vector3& across, const Lattice&
   PointPlane plane;
   plane.count = static_cast<double>(sums.count);
   if (sums.count == 0) return plane;
-  const Vector3 sum(static_cast<double>(sums.sum[0]), static_cast<double>(sums.sum[1]),
-                    static_cast<double>(sums.sum[2]));
   const auto p = [&](std::size_t k) { return static_cast<double>(sums.products[k]); };
   Eigen::Matrix3d products;
   products << p(0), p(3), p(4), p(3), p(1), p(5), p(4), p(5), p(2);
-  const Vector3 mean = sum / plane.count;
+  const Vector3 mean = vector_of(sums.sum) / plane.count;
   const Eigen::Matrix3d halves = products / plane.count - mean * mean.transpose();
   plane.mean = 0.5 * (lattice.axes * mean);
   const Eigen::Matrix3d covariance = 0.25 * (lattice.axes * halves * lattice.axes.transpose());
@@ -140,10 +142,7 @@ class PairMeasure {
     contact.faces = static_cast<std::size_t>(pair_.faces.count);
     contact.raw_area = vector_.norm();
     const PointPlane faces = plane_of(pair_.faces, across(0, 0), lattice_);
-    Vector3 origin;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      origin[k] = 0.5 * static_cast<double>(pair_.origin[static_cast<std::size_t>(k)]);
-    }
+    const Vector3 origin = 0.5 * vector_of(pair_.origin);
     contact.centre += lattice_.axes * origin + faces.mean;
     // The middles of the faces are a sample of the contact.
     contact.centre_uncertainty =
@@ -162,10 +161,7 @@ class PairMeasure {
   Vector3 across(std::size_t narrowest, std::size_t widest) const {
     Vector3 count = Vector3::Zero();
     for (std::size_t gap = narrowest; gap <= widest; ++gap) {
-      for (Eigen::Index k = 0; k < 3; ++k) {
-        const std::int64_t lines = pair_.lines[gap][static_cast<std::size_t>(k)];
-        count[k] += std::abs(static_cast<double>(lines));
-      }
+      count += vector_of(pair_.lines[gap]).cwiseAbs();
     }
     return count;
   }
@@ -198,11 +194,9 @@ class PairMeasure {
   /// Whether the wall closes on itself: its faces' area vectors nearly cancel each other, and few
   /// gaps are around it.
   bool set_closed(FabricContact& contact) const {
+    const Vector3 counts = vector_of(pair_.faces_across);
     double all = 0.0;
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      all += static_cast<double>(pair_.faces_across[static_cast<std::size_t>(k)]) *
-             lattice_.faces.col(k).norm();
-    }
+    for (Eigen::Index k = 0; k < 3; ++k) all += counts[k] * lattice_.faces.col(k).norm();
     // A cube of two voxels has 24 faces. Of a plane wall at least .58 of the faces' area is
     // projected, of half a sphere .33.
     constexpr std::size_t fewest = 24;
@@ -304,12 +298,7 @@ FabricGrain grain_of(const LabelSums& sums, const VolumeGeometry& geometry) {
   grain.label = sums.label;
   grain.voxels = sums.voxels;
   grain.volume = static_cast<double>(sums.voxels) * geometry.voxel_volume();
-  Vector3 middle;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    middle[k] = static_cast<double>(sums.middles[static_cast<std::size_t>(k)]) /
-                (2.0 * static_cast<double>(sums.voxels));
-  }
-  grain.centre = geometry.point(middle);
+  grain.centre = geometry.point(vector_of(sums.middles) / (2.0 * static_cast<double>(sums.voxels)));
   grain.at_border = sums.at_border;
   return grain;
 }

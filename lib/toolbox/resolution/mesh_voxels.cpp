@@ -105,18 +105,16 @@ std::vector<VoxelStretch> mesh_voxels(const IndexedMesh& mesh, double voxel_size
                                       const VoxelPose& pose) {
   const Eigen::Matrix3d turn = pose.turn.toRotationMatrix() / voxel_size;
   std::vector<Vector3> points(mesh.points.size());
-  Vector3 least = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 greatest = -least;
+  Eigen::AlignedBox3d box;
   for (std::size_t k = 0; k < points.size(); ++k) {
     points[k] = turn * mesh.points[k];
-    least = least.cwiseMin(points[k]);
-    greatest = greatest.cwiseMax(points[k]);
+    box.extend(points[k]);
   }
   constexpr double most = 20000.0;
-  if (!points.empty() && !((greatest - least).maxCoeff() < most)) {
+  if (!points.empty() && !(box.sizes().maxCoeff() < most)) {
     refuse("The grain is more than 20000 voxels long. Check the size of a voxel.");
   }
-  for (Vector3& point : points) point += pose.shift - least;
+  for (Vector3& point : points) point += pose.shift - box.min();
 
   std::vector<Crossing> crossings;
   for (const Triangle& triangle : mesh.triangles) append_crossings(points, triangle, crossings);

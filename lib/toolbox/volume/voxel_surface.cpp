@@ -299,15 +299,12 @@ void keep_largest(VoxelSurface& surface) {
   // The divergence theorem in whole numbers: faces across x, multiplied by their x.
   std::vector<std::int64_t> volumes(part.size(), 0);
   for (const VoxelFace& face : surface.faces) {
-    const auto corner = [&](std::size_t k) -> const VoxelCounts& {
-      return surface.corners[static_cast<std::size_t>(face[k])];
-    };
+    const auto corner = [&](std::size_t k) { return surface.corners[index(face[k])]; };
     // The normal's x, from the edges at the first corner, in y and z.
     const std::int64_t normal =
         std::int64_t{corner(1)[1] - corner(0)[1]} * (corner(3)[2] - corner(0)[2]) -
         std::int64_t{corner(1)[2] - corner(0)[2]} * (corner(3)[1] - corner(0)[1]);
-    volumes[static_cast<std::size_t>(part[static_cast<std::size_t>(face[0])])] +=
-        normal * corner(0)[0];
+    volumes[index(part[index(face[0])])] += normal * corner(0)[0];
   }
   for (const std::int64_t volume : volumes) {
     if (volume > 0) {
@@ -331,9 +328,9 @@ void keep_largest(VoxelSurface& surface) {
   surface.corners.resize(count);
   std::size_t faces = 0;
   for (const VoxelFace& face : surface.faces) {
-    if (part[static_cast<std::size_t>(face[0])] != kept) continue;
+    if (part[index(face[0])] != kept) continue;
     VoxelFace& placed = surface.faces[faces++];
-    for (std::size_t k = 0; k < 4; ++k) placed[k] = places[static_cast<std::size_t>(face[k])];
+    for (std::size_t k = 0; k < 4; ++k) placed[k] = places[index(face[k])];
   }
   surface.faces.resize(faces);
 }
@@ -341,10 +338,8 @@ void keep_largest(VoxelSurface& surface) {
 }  // namespace
 
 VoxelSurface voxel_surface(const std::vector<VoxelStretch>& stretches) {
+  if (stretches.empty()) refuse("There are no voxels for a surface. Give at least one.");
   VoxelSurface surface;
-  if (stretches.empty()) {
-    refuse("There are no voxels for a surface. Give at least one.");
-  }
   FaceMaker(stretches, surface).run();
   keep_largest(surface);
   return surface;
