@@ -18,9 +18,9 @@
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
-#include "wscvt/base/version.h"
 #include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
+#include "wscvt/report/report.h"
 
 namespace wscvt {
 
@@ -55,8 +55,6 @@ std::string rows_of(const std::vector<Sphere>& spheres, const char* between) {
   return text;
 }
 
-std::string made_by_text() { return std::string("wscvt ") + version(); }
-
 std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
@@ -87,7 +85,7 @@ std::string liggghts_fix(const FramedClump& clump, const std::string& path) {
     moments += std::string("variable clump_") + std::string(2, "xyz"[k]) + " equal ${density}*" +
                format_exact(clump.mass.principal_moments[k]) + "\n";
   }
-  return "# Made by " + made_by_text() +
+  return "# Made by " + made_by() +
          ". Mass and tensor of inertia are the grain's, at unit density times\n"
          "# the variable density. Each such file counts clump_type up. Before the first write:\n"
          "#   variable density equal 2500\n#   variable clump_type equal 1\n"
@@ -106,7 +104,7 @@ std::string yade_script(const FramedClump& clump) {
     spheres +=
         "    ((" + numbers(sphere.centre, ", ") + "), " + format_exact(sphere.radius) + "),\n";
   }
-  return "# Made by " + made_by_text() +
+  return "# Made by " + made_by() +
          ". A clump for Yade: import this file in a script of Yade's.\n"
          "# Coordinates are the grain's principal axes about its centroid; mass and moments are "
          "the\n"
@@ -142,14 +140,14 @@ std::string chrono_table(const FramedClump& clump) {
   return "x,y,z,r\n" + rows_of(clump.spheres, ",") +
          "# volume = " + format_exact(clump.mass.volume) +
          "\n# Ixx, yy, zz = " + numbers(clump.mass.principal_moments, ", ") + "\n# made by " +
-         made_by_text() + "; mass is density times volume, moments are density times Ixx, yy, zz\n";
+         made_by() + "; mass is density times volume, moments are density times Ixx, yy, zz\n";
 }
 
 std::string pfc_command(const FramedClump& clump, const std::string& path) {
   std::string name = name_of(path);
   name.resize(name.size() - std::string(".p3dat").size());
   std::replace(name.begin(), name.end(), '\'', '_');
-  std::string text = "; made by " + made_by_text() + "; mass properties are the grain's\n" +
+  std::string text = "; made by " + made_by() + "; mass properties are the grain's\n" +
                      "clump template create ...\n  name '" + name + "' ...\n  pebbles " +
                      std::to_string(clump.spheres.size()) + " ...\n";
   for (const Sphere& sphere : clump.spheres) {
@@ -167,7 +165,7 @@ std::string kratos_cluster(const FramedClump& clump, const std::string& path) {
   }
   const Vector3 per_mass = clump.mass.principal_moments / clump.mass.volume;
   const std::string size = format_exact(2.0 * reach);
-  return "// made by " + made_by_text() + "; volume and inertia are the grain's\n\nName\n" +
+  return "// made by " + made_by() + "; volume and inertia are the grain's\n\nName\n" +
          std::filesystem::path(path).stem().string() + "\n\nBegin centers_and_radii\n" +
          rows_of(clump.spheres, " ") +
          "End centers_and_radii\n\nParticle_center_and_diameter\n0 0 0 " + size + "\n\nSize\n" +
@@ -191,7 +189,7 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
     masses += number + format_exact(mass * portable::pow(spheres[k].radius, 3) / cubes) + "\n";
   }
   const Vector3 tensor = density * clump.mass.principal_moments;
-  return "# made by " + made_by_text() + "; mass and moments are the grain's, density " +
+  return "# made by " + made_by() + "; mass and moments are the grain's, density " +
          format_exact(density) + "\n\n" + std::to_string(spheres.size()) + " atoms\n" +
          format_exact(mass) + " mass\n0 0 0 com\n" + numbers(tensor, " ") +
          " 0 0 0 inertia\n\nCoords\n\n" + coordinates + "\nTypes\n\n" + types + "\nDiameters\n\n" +

@@ -74,17 +74,17 @@ void append_touches(const std::string& suffix, const TouchErrors& errors,
 void append_resolution(const Resolution& resolution, std::vector<ShapeValue>& values) {
   constexpr double missing = std::numeric_limits<double>::quiet_NaN();
   const bool is_known = !resolution.rows.empty();
-  values.push_back(
-      {{"resolution.voxel_size", "length"}, is_known ? resolution.voxel_size : missing});
-  values.push_back(
-      {{"resolution.voxels_across", ""}, is_known ? resolution.voxels_across : missing});
+  const auto add = [&](const std::string& name, const std::string& unit, double value) {
+    values.push_back({{"resolution." + name, unit}, is_known ? value : missing});
+  };
+  add("voxel_size", "length", resolution.voxel_size);
+  add("voxels_across", "", resolution.voxels_across);
   const std::vector<DescriptorValue> names = list_descriptors(DetailedDescriptors());
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const ResolvedValue* row = is_known ? &resolution.rows[k] : nullptr;
-    const std::string name = "resolution." + names[k].key;
-    values.push_back({{name + ".corrected", names[k].unit}, row ? row->corrected : missing});
-    values.push_back({{name + ".low", names[k].unit}, row ? row->low : missing});
-    values.push_back({{name + ".high", names[k].unit}, row ? row->high : missing});
+    const ResolvedValue row = is_known ? resolution.rows[k] : ResolvedValue();
+    add(names[k].key + ".corrected", names[k].unit, row.corrected);
+    add(names[k].key + ".low", names[k].unit, row.low);
+    add(names[k].key + ".high", names[k].unit, row.high);
   }
 }
 

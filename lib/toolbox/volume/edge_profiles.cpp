@@ -258,8 +258,12 @@ double contrast_of(const EdgeSteps& steps) {
   return std::max(std::abs(steps.layer - steps.space), std::abs(steps.inside - steps.space));
 }
 
-/// The part of the contrast that each of two steps has at least.
-constexpr double least_step = 0.1;
+/// Whether each of two steps has enough of the contrast.
+bool are_clear(const EdgeSteps& steps) {
+  const double least = 0.1 * contrast_of(steps);
+  return std::abs(steps.inside - steps.layer) > least &&
+         std::abs(steps.layer - steps.space) > least;
+}
 
 /// Returns the steps of a film that the blur hides: two steps are nearer to the profile of all
 /// grains, and their blur is clearly less than that of one. Empty: one step is as good.
@@ -273,9 +277,7 @@ std::optional<EdgeSteps> hidden_steps(const BestFits& best) {
   constexpr double nearer = 2.4e-5;
   const bool are_two = best.soft_two.blur < narrower * best.one.blur &&
                        best.one.error - best.soft_two.error > nearer * contrast * contrast &&
-                       steps.goes_on() &&
-                       std::abs(steps.inside - steps.layer) > least_step * contrast &&
-                       std::abs(steps.layer - steps.space) > least_step * contrast;
+                       steps.goes_on() && are_clear(steps);
   if (!are_two) return std::nullopt;
   return steps;
 }
@@ -293,9 +295,7 @@ std::optional<EdgeSteps> steps_of(const Profile& profile, const BestFits& best) 
   constexpr double clear = 0.015;
   constexpr double better = 3.0;
   const bool are_two = one.error > clear * clear * contrast * contrast &&
-                       one.error > better * two.error &&
-                       std::abs(steps.inside - steps.layer) > least_step * contrast &&
-                       std::abs(steps.layer - steps.space) > least_step * contrast;
+                       one.error > better * two.error && are_clear(steps);
   if (!are_two) return std::nullopt;
   return steps;
 }

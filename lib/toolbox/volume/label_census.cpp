@@ -38,7 +38,11 @@ class Census {
   }
 
   void end_slice() {
-    gather();
+    // The part that represents joined parts has all their voxels.
+    for (std::uint32_t part = 0; part < parts_.size(); ++part) {
+      const std::uint32_t root = joined_.find(part);
+      if (root != part) parts_[root].voxels += parts_[part].voxels;
+    }
     constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
     std::vector<std::uint32_t> places(parts_.size(), none);
     std::vector<Part> kept;
@@ -83,14 +87,6 @@ class Census {
     extent.begin.fill(std::numeric_limits<std::int32_t>::max());
     labels_.push_back(extent);
     return place->second;
-  }
-
-  /// Adds the voxels of joined parts to the part that represents them.
-  void gather() {
-    for (std::uint32_t part = 0; part < parts_.size(); ++part) {
-      const std::uint32_t root = joined_.find(part);
-      if (root != part) parts_[root].voxels += parts_[part].voxels;
-    }
   }
 
   void finish(const Part& part) {

@@ -39,8 +39,6 @@ Label background_label(double background) {
   return is_label ? static_cast<Label>(background) : no_label;
 }
 
-LabelVolume::LabelVolume(VolumeGeometry geometry) : geometry_(std::move(geometry)) {}
-
 Label grey_code(float value) {
   if (std::isnan(value)) return 0;
   Label bits = 0;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"
@@ -110,7 +111,7 @@ class LabelVolume {
   virtual void rewind() = 0;
 
  protected:
-  explicit LabelVolume(VolumeGeometry geometry);
+  explicit LabelVolume(VolumeGeometry geometry) : geometry_(std::move(geometry)) {}
   LabelCoding& coding() { return coding_; }
 
  private:

@@ -558,23 +558,15 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
   std::vector<char> beside;
   if (outside.empty()) return beside;
   const VoxelCounts& counts = labels.geometry().counts;
-  const auto width = static_cast<std::size_t>(counts[0]);
-  const std::size_t slice = width * static_cast<std::size_t>(counts[1]);
-  std::size_t k = 0;
+  std::size_t next = 0;
   for_each_row(labels, execution, reading_stage, [&](const std::vector<Label>& row) {
-    for (std::size_t x = 0; x < row.size(); ++x, ++k) {
-      const Label label = row[x];
+    for (const Label label : row) {
+      const std::size_t k = next++;
       if (label == 0) continue;
-      // The median takes a voxel away beside what was not scanned.
       bool touches = false;
-      for (const std::size_t away : {1, 2}) {
-        touches = touches || (x >= away && outside[k - away] != 0) ||
-                  (x + away < width && outside[k + away] != 0) ||
-                  (k % slice >= away * width && outside[k - away * width] != 0) ||
-                  (k % slice + away * width < slice && outside[k + away * width] != 0) ||
-                  (k >= away * slice && outside[k - away * slice] != 0) ||
-                  (k + away * slice < outside.size() && outside[k + away * slice] != 0);
-      }
+      const auto look = [&](std::size_t other) { touches = touches || outside[other] != 0; };
+      // The median takes a voxel away beside what was not scanned.
+      for (const std::size_t away : {1, 2}) for_each_neighbour(k, counts, look, away);
       if (!touches) continue;
       if (label >= beside.size()) beside.resize(label + std::size_t{1}, 0);
       beside[label] = 1;

@@ -40,20 +40,21 @@ inline bool is_marked(const std::vector<std::uint8_t>& marks, std::size_t voxel)
   return !marks.empty() && marks[voxel] != 0;
 }
 
-/// Calls take(neighbour) for the neighbours of a voxel by faces.
+/// Calls take(neighbour) for the neighbours of a voxel by faces, or for those so many voxels away.
 template <class Take>
-void for_each_neighbour(std::size_t voxel, const VoxelCounts& counts, const Take& take) {
+void for_each_neighbour(std::size_t voxel, const VoxelCounts& counts, const Take& take,
+                        std::size_t away = 1) {
   const VoxelGrid grid(counts);
   const std::size_t width = grid.sizes[0];
   const std::size_t slice = grid.steps[2];
   const std::size_t x = voxel % width;
   const std::size_t in_slice = voxel % slice;
-  if (x > 0) take(voxel - 1);
-  if (x + 1 < width) take(voxel + 1);
-  if (in_slice >= width) take(voxel - width);
-  if (in_slice + width < slice) take(voxel + width);
-  if (voxel >= slice) take(voxel - slice);
-  if (voxel + slice < grid.voxels) take(voxel + slice);
+  if (x >= away) take(voxel - away);
+  if (x + away < width) take(voxel + away);
+  if (in_slice >= away * width) take(voxel - away * width);
+  if (in_slice + away * width < slice) take(voxel + away * width);
+  if (voxel >= away * slice) take(voxel - away * slice);
+  if (voxel + away * slice < grid.voxels) take(voxel + away * slice);
 }
 
 /// Calls take(voxel, neighbour) once for each pair of voxels with a common face; the neighbour has

@@ -22,9 +22,9 @@ namespace wscvt {
 
 namespace {
 
-/// Returns the positions of the selected slices in a file of pages.
+/// Returns the positions of the slices of the selected channel and frame in a file of pages.
 std::vector<SlicePage> slices_of(const TiffLayout& layout, const std::vector<std::uint32_t>& pages,
-                                 const std::vector<std::int64_t>& places) {
+                                 std::int64_t channel, std::int64_t frame) {
   std::vector<SlicePage> slices;
   std::int64_t count = 1;
   for (const VolumeAxis& axis : layout.axes) {
@@ -33,9 +33,13 @@ std::vector<SlicePage> slices_of(const TiffLayout& layout, const std::vector<std
   for (std::int64_t z = 0; z < count; ++z) {
     std::int64_t plane = 0;
     std::int64_t step = 1;
-    for (std::size_t k = 0; k < layout.axes.size(); ++k) {
-      plane += step * (layout.axes[k].kind == AxisKind::Space ? z : places[k]);
-      step *= layout.axes[k].count;
+    for (const VolumeAxis& axis : layout.axes) {
+      if (axis.kind == AxisKind::Space) {
+        plane += step * z;
+      } else if (axis.count > 1) {
+        plane += step * (axis.kind == AxisKind::Channel ? channel : frame);
+      }
+      step *= axis.count;
     }
     const auto place = static_cast<std::size_t>(plane);
     slices.push_back(
@@ -90,7 +94,6 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const TiffPag
   TiffLayout layout = tiff_layout(
       list.text, pages, {page.width, page.height, page.samples, list.slices.back() + 1}, path);
   VolumeAxis frames = {AxisKind::Frame, 1};
-  std::vector<std::int64_t> places;
   std::int64_t slices = 1;
   for (const VolumeAxis& axis : layout.axes) {
     if (axis.kind == AxisKind::Space) slices *= axis.count;
@@ -112,13 +115,6 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const TiffPag
   // Each kind of dimension is selected once.
   const std::int64_t channel = chosen_place(channels_of(layout, page, path), choice, path);
   const std::int64_t frame = chosen_place(frames, choice, path);
-  for (const VolumeAxis& axis : layout.axes) {
-    const bool has_more = axis.count > 1;
-    places.push_back(!has_more                        ? 0
-                     : axis.kind == AxisKind::Channel ? channel
-                     : axis.kind == AxisKind::Frame   ? frame
-                                                      : 0);
-  }
   VolumeGeometry geometry;
   geometry.counts = voxel_counts({page.width, page.height, slices}, path);
   set_lattice_of_tiff(geometry, file, page, layout, choice);
@@ -146,7 +142,7 @@ std::unique_ptr<LabelVolume> volume_of_pages(const TiffFile& file, const TiffPag
     volume = volume_of_files(geometry, type, data);
   } else {
     volume = volume_of_slices(geometry, page, channel, std::vector<std::string>{path},
-                              slices_of(layout, list.slices, places));
+                              slices_of(layout, list.slices, channel, frame));
   }
   volume->set_offset(layout.offset);
   add_notes(layout, list, page, choice, *volume);
