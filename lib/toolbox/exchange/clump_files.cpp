@@ -217,7 +217,8 @@ void write_mercury(const std::string& path, const FramedClump& clump) {
 std::string clump_ending(const std::string& path) {
   const std::string lower = lower_case(path);
   std::string found;
-  for (const std::string& ending : clump_endings()) {
+  for (const std::string ending :
+       {".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule", ".clu"}) {
     const bool fits =
         lower.size() > ending.size() && std::equal(ending.rbegin(), ending.rend(), lower.rbegin());
     if (fits && ending.size() > found.size()) found = ending;
@@ -226,12 +227,6 @@ std::string clump_ending(const std::string& path) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& clump_endings() {
-  static const std::vector<std::string> endings = {
-      ".csv", ".multisphere", ".py", ".chrono.csv", ".mclump", ".p3dat", ".molecule", ".clu"};
-  return endings;
-}
 
 bool is_clump_name(const std::string& path) { return !clump_ending(path).empty(); }
 

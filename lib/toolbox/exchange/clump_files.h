@@ -30,10 +30,7 @@ inline constexpr NumberOption<double> clump_density_option = {
     0.0,           std::numeric_limits<double>::infinity(),
     Ends::Neither, "mass per unit volume in .molecule"};
 
-/// Returns the endings above.
-const std::vector<std::string>& clump_endings();
-
-/// Returns whether a name has one of the endings, in either case.
+/// Returns whether a name has one of the endings above, in either case.
 bool is_clump_name(const std::string& path);
 
 /// Throws Error(InvalidInput), with the endings, for another ending.

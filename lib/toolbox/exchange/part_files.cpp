@@ -23,7 +23,7 @@ std::string text_of(const Vector3& v) {
 }
 
 /// Appends a part to an OBJ text; `first` is the number of its first vertex, from 1.
-void append_obj(const IndexedMesh& part, int number, std::size_t first, std::string& text) {
+void append_obj(const IndexedMesh& part, std::size_t number, std::size_t first, std::string& text) {
   text += "g part_" + std::to_string(number) + "\n";
   for (const Vector3& p : part.points) text += "v " + text_of(p) + "\n";
   for (const Triangle& t : part.triangles) {
@@ -39,7 +39,7 @@ std::string obj_text(const ConvexParts& parts) {
   std::string text = "# convex parts, a group each\n";
   std::size_t first = 1;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    append_obj(parts[k], static_cast<int>(k) + 1, first, text);
+    append_obj(parts[k], k + 1, first, text);
     first += parts[k].points.size();
   }
   return text;
@@ -124,7 +124,7 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
   if (ending_of(path) == ".xml") return write_file(path, mjcf_text(path, parts, mass, density));
   for (std::size_t k = 1; k <= parts.size(); ++k) {
     std::string text;
-    append_obj(parts[k - 1], static_cast<int>(k), 1, text);
+    append_obj(parts[k - 1], k, 1, text);
     write_file((std::filesystem::path(path).parent_path() / part_name(path, k)).string(), text);
   }
   write_file(path, urdf_text(path, parts.size(), mass, density));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "toolbox/fabric/fabric_files.h"
 #include "toolbox/sample/distribution.h"
@@ -141,9 +142,7 @@ void add_areas(const Fabric& fabric, HtmlDocument& page) {
     for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
       row.push_back(format_number(quantile(*values, share), 4));
     }
-    double sum = 0.0;
-    for (const double value : *values) sum += value;
-    row.push_back(format_number(sum, 4));
+    row.push_back(format_number(std::accumulate(values->begin(), values->end(), 0.0), 4));
     rows.push_back(row);
   }
   page.add_rows(rows);

@@ -29,12 +29,12 @@ struct Source {
   const char* label;
   const char* unit;
   const char* column;
-  const char* divisor;  ///< null: none
+  const char* divisor = nullptr;  ///< null: none
   /// The scans' shape has a page's own figures.
   bool in_log = true;
 };
 constexpr Source sources[] = {
-    {"equivalent_radius", "equivalent radius", "length", "input.equivalent_radius", nullptr},
+    {"equivalent_radius", "equivalent radius", "length", "input.equivalent_radius"},
     {"volume", "volume", "length^3", "descriptors.volume.scan", nullptr, false},
     {"aspect_ratio", "aspect ratio S / L", "", "descriptors.aspect_ratio_inertia.scan", nullptr,
      false},
@@ -43,16 +43,14 @@ constexpr Source sources[] = {
     {"flatness", "flatness S / I", "", "descriptors.axis_s_inertia.scan",
      "descriptors.axis_i_inertia.scan", false},
     {"sphericity", "sphericity (Wadell)", "", "descriptors.sphericity_wadell.scan", nullptr, false},
-    {"volume_error", "error of the volume", "%", "descriptors.volume.error_percent", nullptr},
-    {"area_error", "error of the area", "%", "descriptors.area.error_percent", nullptr},
+    {"volume_error", "error of the volume", "%", "descriptors.volume.error_percent"},
+    {"area_error", "error of the area", "%", "descriptors.area.error_percent"},
     {"sphericity_error", "error of the sphericity", "%",
-     "descriptors.sphericity_wadell.error_percent", nullptr},
+     "descriptors.sphericity_wadell.error_percent"},
     {"rms_distance", "rms distance / equivalent radius", "%",
-     "rms_distance.percent_of_equivalent_radius", nullptr},
-    {"edge_ratio", "mean of longest / shortest edge", "", "quality.remesh.edge_ratio.mean",
-     nullptr},
-    {"smallest_angle", "smallest angle", "degrees", "quality.remesh.smallest_angle_degrees",
-     nullptr},
+     "rms_distance.percent_of_equivalent_radius"},
+    {"edge_ratio", "mean of longest / shortest edge", "", "quality.remesh.edge_ratio.mean"},
+    {"smallest_angle", "smallest angle", "degrees", "quality.remesh.smallest_angle_degrees"},
 };
 
 double number_of(const std::string& field) {

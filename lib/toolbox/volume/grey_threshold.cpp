@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 #include "toolbox/volume/segmentation_steps.h"
 
@@ -14,6 +15,10 @@ constexpr std::uint64_t fewest_of = 1000;
 
 /// Windows in the range of all values but a thousandth at each end.
 constexpr std::size_t windows = 16;
+
+std::uint64_t sum_of(const std::vector<std::uint64_t>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+}
 
 /// Counts and their moments below a level.
 struct Side {
@@ -53,6 +58,14 @@ double peak_of(const std::vector<std::uint64_t>& counts, std::size_t begin, std:
     most = std::max(most, sum);
   }
   return 0.5 * (first + last);
+}
+
+/// Returns the level half way between the peaks of the values [begin, middle) and [middle, end).
+double level_between(const std::vector<std::uint64_t>& counts, std::size_t begin,
+                     std::size_t middle, std::size_t end) {
+  const std::size_t width =
+      peak_width(side_of(counts, middle, end).mean() - side_of(counts, begin, middle).mean());
+  return 0.5 * (peak_of(counts, begin, middle, width) + peak_of(counts, middle, end, width));
 }
 
 /// Returns the sums over windows of `width` values about each value.
@@ -162,8 +175,7 @@ void append_peaks(const std::vector<std::uint64_t>& counts, std::uint64_t all, s
 }  // namespace
 
 std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fraction) {
-  std::uint64_t all = 0;
-  for (const std::uint64_t count : counts) all += count;
+  const std::uint64_t all = sum_of(counts);
   std::uint64_t sum = 0;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     sum += counts[k];
@@ -178,8 +190,7 @@ std::ptrdiff_t values_in(const std::vector<std::uint64_t>& counts) {
 
 std::vector<GreyPeak> peaks_of(const std::vector<std::uint64_t>& counts, bool has_noise) {
   constexpr std::ptrdiff_t few = 8;
-  std::uint64_t all = 0;
-  for (const std::uint64_t count : counts) all += count;
+  const std::uint64_t all = sum_of(counts);
   const bool are_beside =
       std::adjacent_find(counts.begin(), counts.end(), [](std::uint64_t a, std::uint64_t b) {
         return a > 0 && b > 0;
@@ -200,10 +211,7 @@ double level_below(const std::vector<std::uint64_t>& counts, const std::vector<G
   const std::size_t begin = upper > 1 ? peaks[upper - 2].valley + 1 : 0;
   const std::size_t middle = peaks[upper - 1].valley + 1;
   const std::size_t end = upper + 1 == peaks.size() ? counts.size() : peaks[upper].valley + 1;
-  const double contrast =
-      side_of(counts, middle, end).mean() - side_of(counts, begin, middle).mean();
-  const std::size_t width = peak_width(contrast);
-  return 0.5 * (peak_of(counts, begin, middle, width) + peak_of(counts, middle, end, width));
+  return level_between(counts, begin, middle, end);
 }
 
 double otsu_level(const std::vector<std::uint64_t>& counts) {
@@ -275,11 +283,7 @@ double contrast_at(const std::vector<std::uint64_t>& counts, double level) {
 }
 
 double level_between_peaks(const std::vector<std::uint64_t>& counts) {
-  const auto parted = static_cast<std::size_t>(otsu_level(counts));
-  const double contrast =
-      side_of(counts, parted, counts.size()).mean() - side_of(counts, 0, parted).mean();
-  const std::size_t width = peak_width(contrast);
-  return 0.5 * (peak_of(counts, 0, parted, width) + peak_of(counts, parted, counts.size(), width));
+  return level_between(counts, 0, static_cast<std::size_t>(otsu_level(counts)), counts.size());
 }
 
 }  // namespace wscvt

@@ -118,15 +118,16 @@ std::uint64_t material_count(const std::vector<std::uint8_t>& mask) {
   return static_cast<std::uint64_t>(std::count(mask.begin(), mask.end(), 1));
 }
 
-/// Returns the histogram of the differences of neighbours along x; `values`: the number of greys.
-std::vector<std::uint64_t> differences_of(const std::vector<std::uint16_t>& grey, std::size_t width,
-                                          std::size_t values) {
+/// Returns the median difference of neighbours along x, noise; `values`: the number of greys.
+std::size_t noise_of(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
+                     std::size_t values) {
+  const auto width = static_cast<std::size_t>(sizes[0]);
   std::vector<std::uint64_t> differences(values, 0);
   for (std::size_t k = 0; k < grey.size(); ++k) {
     if (k % width == 0) continue;
     ++differences[static_cast<std::size_t>(std::abs(int{grey[k]} - int{grey[k - 1]}))];
   }
-  return differences;
+  return quantile_of(differences, 0.5);
 }
 
 /// Returns the histogram of the voxels whose six neighbours are alike. Voxels at the surface of
@@ -135,9 +136,8 @@ std::vector<std::uint64_t> counts_inside(const std::vector<std::uint16_t>& grey,
                                          const std::vector<std::uint8_t>& outside,
                                          const VoxelCounts& sizes,
                                          const std::vector<std::uint64_t>& counts) {
-  const auto width = static_cast<std::size_t>(sizes[0]);
   // Most neighbours differ by noise only. Surfaces differ by a third of the contrast and more.
-  const std::size_t noise = quantile_of(differences_of(grey, width, counts.size()), 0.5);
+  const std::size_t noise = noise_of(grey, sizes, counts.size());
   // A few voxels of a very bright phase do not widen the range.
   constexpr double rare = 0.05;
   const std::size_t range = quantile_of(counts, 1.0 - rare) - quantile_of(counts, rare);
@@ -247,10 +247,9 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
 /// Returns whether noise is more than a few percent of the contrast.
 bool is_noisy(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
               const VoxelCounts& sizes) {
-  const auto width = static_cast<std::size_t>(sizes[0]);
   if (values_in(counts) < 2) return true;
   constexpr double little = 0.04;
-  return static_cast<double>(quantile_of(differences_of(grey, width, counts.size()), 0.5)) >
+  return static_cast<double>(noise_of(grey, sizes, counts.size())) >
          little * contrast_at(counts, level_between_peaks(counts));
 }
 
