@@ -20,6 +20,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
+#include "wscvt/mesh_files/text_writers.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt {
@@ -42,15 +43,10 @@ FramedClump in_frame(const ClumpResult& clump, const FrameOptions& options) {
   return framed;
 }
 
-std::string numbers(const Vector3& values, const char* between) {
-  return format_exact(values[0]) + between + format_exact(values[1]) + between +
-         format_exact(values[2]);
-}
-
 std::string rows_of(const std::vector<Sphere>& spheres, const char* between) {
   std::string text;
   for (const Sphere& sphere : spheres) {
-    text += numbers(sphere.centre, between) + between + format_exact(sphere.radius) + "\n";
+    text += vector_text(sphere.centre, between) + between + format_exact(sphere.radius) + "\n";
   }
   return text;
 }
@@ -102,7 +98,7 @@ std::string yade_script(const FramedClump& clump) {
   std::string spheres;
   for (const Sphere& sphere : clump.spheres) {
     spheres +=
-        "    ((" + numbers(sphere.centre, ", ") + "), " + format_exact(sphere.radius) + "),\n";
+        "    ((" + vector_text(sphere.centre, ", ") + "), " + format_exact(sphere.radius) + "),\n";
   }
   return "# Made by " + made_by() +
          ". A clump for Yade: import this file in a script of Yade's.\n"
@@ -112,7 +108,7 @@ std::string yade_script(const FramedClump& clump) {
          "from yade import O, Matrix3, Quaternion, Vector3, utils\n\n"
          "volume = " +
          format_exact(clump.mass.volume) + "\nmoments = (" +
-         numbers(clump.mass.principal_moments, ", ") + ")\nspheres = [\n" + spheres +
+         vector_text(clump.mass.principal_moments, ", ") + ")\nspheres = [\n" + spheres +
          "]\n\n"
          "# For O.bodies.replaceByClumps, which takes mass and inertia from the spheres.\n"
          "template = utils.clumpTemplate(relRadii=[r for c, r in spheres], relPositions=[c for c, "
@@ -139,7 +135,7 @@ std::string yade_script(const FramedClump& clump) {
 std::string chrono_table(const FramedClump& clump) {
   return "x,y,z,r\n" + rows_of(clump.spheres, ",") +
          "# volume = " + format_exact(clump.mass.volume) +
-         "\n# Ixx, yy, zz = " + numbers(clump.mass.principal_moments, ", ") + "\n# made by " +
+         "\n# Ixx, yy, zz = " + vector_text(clump.mass.principal_moments, ", ") + "\n# made by " +
          made_by() + "; mass is density times volume, moments are density times Ixx, yy, zz\n";
 }
 
@@ -151,10 +147,10 @@ std::string pfc_command(const FramedClump& clump, const std::string& path) {
                      "clump template create ...\n  name '" + name + "' ...\n  pebbles " +
                      std::to_string(clump.spheres.size()) + " ...\n";
   for (const Sphere& sphere : clump.spheres) {
-    text += "    " + format_exact(sphere.radius) + " " + numbers(sphere.centre, " ") + " ...\n";
+    text += "    " + format_exact(sphere.radius) + " " + vector_text(sphere.centre) + " ...\n";
   }
   return text + "  volume " + format_exact(clump.mass.volume) + " ...\n  inertia " +
-         numbers(clump.mass.principal_moments, " ") + " 0 0 0\n";
+         vector_text(clump.mass.principal_moments) + " 0 0 0\n";
 }
 
 /// Returns a cluster of Kratos's DEM application. Its mesher takes the ball about the cluster.
@@ -170,7 +166,7 @@ std::string kratos_cluster(const FramedClump& clump, const std::string& path) {
          rows_of(clump.spheres, " ") +
          "End centers_and_radii\n\nParticle_center_and_diameter\n0 0 0 " + size + "\n\nSize\n" +
          size + "\n\nVolume\n" + format_exact(clump.mass.volume) + "\n\nInertia per unit mass\n" +
-         numbers(per_mass, "\n") + "\n";
+         vector_text(per_mass, "\n") + "\n";
 }
 
 /// LAMMPS adds the masses of atoms for the energies that it prints, but uses the body's mass and
@@ -183,7 +179,7 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
   std::string coordinates, types, diameters, masses;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
     const std::string number = std::to_string(k + 1) + " ";
-    coordinates += number + numbers(spheres[k].centre, " ") + "\n";
+    coordinates += number + vector_text(spheres[k].centre) + "\n";
     types += number + "1\n";
     diameters += number + format_exact(2.0 * spheres[k].radius) + "\n";
     masses += number + format_exact(mass * portable::pow(spheres[k].radius, 3) / cubes) + "\n";
@@ -191,7 +187,7 @@ std::string lammps_molecule(const FramedClump& clump, double density) {
   const Vector3 tensor = density * clump.mass.principal_moments;
   return "# made by " + made_by() + "; mass and moments are the grain's, density " +
          format_exact(density) + "\n\n" + std::to_string(spheres.size()) + " atoms\n" +
-         format_exact(mass) + " mass\n0 0 0 com\n" + numbers(tensor, " ") +
+         format_exact(mass) + " mass\n0 0 0 com\n" + vector_text(tensor) +
          " 0 0 0 inertia\n\nCoords\n\n" + coordinates + "\nTypes\n\n" + types + "\nDiameters\n\n" +
          diameters + "\nMasses\n\n" + masses;
 }
@@ -207,9 +203,9 @@ void write_mercury(const std::string& path, const FramedClump& clump) {
   const Vector3& m = clump.mass.principal_moments;
   write_file((folder / "Clump/Clump.txt").string(), rows_of(clump.spheres, ","));
   write_file((folder / "Inertia/Mass.txt").string(), format_exact(clump.mass.volume) + "\n");
-  write_file((folder / "Inertia/TOI.txt").string(), numbers({m[0], 0, 0}, ",") + "\n" +
-                                                        numbers({0, m[1], 0}, ",") + "\n" +
-                                                        numbers({0, 0, m[2]}, ",") + "\n");
+  write_file((folder / "Inertia/TOI.txt").string(), vector_text({m[0], 0, 0}, ",") + "\n" +
+                                                        vector_text({0, m[1], 0}, ",") + "\n" +
+                                                        vector_text({0, 0, m[2]}, ",") + "\n");
   write_file((folder / "Inertia/PD.txt").string(), "1,0,0\n0,1,0\n0,0,1\n");
 }
 

@@ -16,16 +16,9 @@
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/mesh_files/text_writers.h"
 
 namespace wscvt {
-
-namespace {
-
-void append(std::vector<std::string>& fields, const Vector3& v) {
-  for (const double coordinate : v) fields.push_back(format_exact(coordinate));
-}
-
-}  // namespace
 
 void check_fragment_format(const std::string& format) {
   if (format == "urdf" || format == "xml" || format == "shp") return;
@@ -68,10 +61,10 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
     const Fragment& fragment = fragments.list[k];
     std::vector<std::string> fields = {std::to_string(k + 1), files.at(k),
                                        format_exact(fragment.mass.volume)};
-    append(fields, fragment.mass.centroid);
+    append_exact(fields, fragment.mass.centroid);
     const Eigen::Quaterniond& q = fragment.mass.principal_axes;
     fields.push_back(format_exact(q.w()));
-    append(fields, q.vec());
+    append_exact(fields, q.vec());
     for (const double value :
          {fragment.surface_area, fragment.wall_area, fragment.hull_excess_percent}) {
       fields.push_back(format_exact(value));
@@ -99,8 +92,8 @@ std::string fragment_contacts_csv(const Fragments& fragments) {
     std::vector<std::string> fields = {std::to_string(contact.first + 1),
                                        std::to_string(contact.second + 1),
                                        format_exact(contact.area)};
-    append(fields, contact.centre);
-    append(fields, contact.normal);
+    append_exact(fields, contact.centre);
+    append_exact(fields, contact.normal);
     text += csv_record(fields);
   }
   return text;

@@ -17,10 +17,6 @@ namespace {
 
 constexpr int disc_corners = 16;
 
-void append(std::vector<std::string>& fields, const Vector3& vector) {
-  for (const double component : vector) fields.push_back(format_exact(component));
-}
-
 std::string yes(bool value) { return value ? "1" : "0"; }
 
 bool has_disc(const FabricContact& contact) { return contact.is_contact && !contact.is_closed; }
@@ -85,11 +81,11 @@ std::string contacts_csv(const Fabric& fabric) {
                                        format_exact(contact.raw_area),
                                        format_exact(contact.area),
                                        format_exact(contact.area_uncertainty)};
-    append(fields, contact.centre);
+    append_exact(fields, contact.centre);
     fields.push_back(format_exact(contact.centre_uncertainty));
-    append(fields, contact.normal);
+    append_exact(fields, contact.normal);
     fields.push_back(format_exact(contact.normal_uncertainty));
-    append(fields, contact.branch);
+    append_exact(fields, contact.branch);
     fields.push_back(yes(contact.at_border));
     fields.push_back(fabric.geometry.unit);
     text += csv_record(fields);
@@ -105,7 +101,7 @@ std::string fabric_grains_csv(const Fabric& fabric) {
     std::vector<std::string> fields = {std::to_string(grain.label),
                                        name == fabric.names.end() ? "" : name->second,
                                        std::to_string(grain.voxels), format_exact(grain.volume)};
-    append(fields, grain.centre);
+    append_exact(fields, grain.centre);
     fields.push_back(std::to_string(grain.touching));
     fields.push_back(std::to_string(grain.contacts));
     fields.push_back(format_exact(grain.contact_area));

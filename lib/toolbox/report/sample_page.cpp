@@ -341,11 +341,6 @@ void add_place(HtmlDocument& page, const std::string& id) {
                 "\"></div>\n");
 }
 
-/// Returns " of NAME" for a heading if there are two samples, else nothing.
-std::string of_sample(const SampleReport& report, const ReportedSample& one) {
-  return report.samples.size() > 1 ? " of " + one.name : "";
-}
-
 void add_introduction(HtmlDocument& page, const SampleReport& report) {
   page.add_html("<p>" + html_escaped(origin_sentence({})) + "<span id=\"date\"></span></p>\n");
   for (const ReportedSample& one : report.samples) {
@@ -443,7 +438,7 @@ void add_batches(HtmlDocument& page, const SampleReport& report, const Execution
   for (const ReportedSample& one : report.samples) {
     if (!one.batch) continue;
     const SampleSummary& batch = *one.batch;
-    const std::string of = of_sample(report, one);
+    const std::string of = report.samples.size() > 1 ? " of " + one.name : "";
     if (batch.failed > 0) page.add_heading("Failures" + of);
     add_messages(page, "error", batch.failures, batch.failed);
     if (batch.with_warnings > 0) page.add_heading("Warnings" + of);

@@ -43,21 +43,16 @@ void append_frame(const std::string& mesh, const ShapeDescriptors& basic,
   }
 }
 
-void append_quality(const std::string& mesh, const MeshQuality& quality,
-                    std::vector<ShapeValue>& values) {
-  values.push_back({{mesh + "edge_length_mean", "length"}, quality.edge_length.mean});
-  values.push_back({{mesh + "edge_length_variation", ""}, quality.edge_variation});
-  values.push_back({{mesh + "edge_ratio_mean", ""}, quality.edge_ratio.mean});
-  values.push_back({{mesh + "smallest_angle", "degrees"}, quality.smallest_angle});
-}
-
 void append_mesh(const std::string& mesh, const DetailedDescriptors& descriptors,
                  const MeshQuality& quality, std::vector<ShapeValue>& values) {
   for (DescriptorValue& one : list_descriptors(descriptors)) {
     values.push_back({{mesh + one.key, std::move(one.unit)}, one.value});
   }
   append_frame(mesh, descriptors.basic, values);
-  append_quality(mesh, quality, values);
+  values.push_back({{mesh + "edge_length_mean", "length"}, quality.edge_length.mean});
+  values.push_back({{mesh + "edge_length_variation", ""}, quality.edge_variation});
+  values.push_back({{mesh + "edge_ratio_mean", ""}, quality.edge_ratio.mean});
+  values.push_back({{mesh + "smallest_angle", "degrees"}, quality.smallest_angle});
 }
 
 void append_touches(const std::string& suffix, const TouchErrors& errors,

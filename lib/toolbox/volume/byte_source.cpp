@@ -293,9 +293,7 @@ class PickedBytes : public ByteSource {
 
 class JoinedBytes : public ByteSource {
  public:
-  using Open = std::function<std::unique_ptr<ByteSource>(const std::string& path)>;
-
-  JoinedBytes(std::vector<std::string> paths, std::uint64_t part, Open open)
+  JoinedBytes(std::vector<std::string> paths, std::uint64_t part, OpenFile open)
       : paths_(std::move(paths)), part_(part), open_(std::move(open)) {}
 
   std::size_t read(char* bytes, std::size_t count) override {
@@ -322,7 +320,7 @@ class JoinedBytes : public ByteSource {
  private:
   std::vector<std::string> paths_;
   std::uint64_t part_;
-  Open open_;
+  OpenFile open_;
   std::unique_ptr<ByteSource> bytes_;
   std::size_t next_ = 0;
   std::uint64_t left_ = 0;
@@ -386,9 +384,8 @@ std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std:
   return std::make_unique<PickedBytes>(std::move(bytes), block, count, place);
 }
 
-std::unique_ptr<ByteSource> joined_bytes(
-    std::vector<std::string> paths, std::uint64_t part,
-    std::function<std::unique_ptr<ByteSource>(const std::string& path)> open) {
+std::unique_ptr<ByteSource> joined_bytes(std::vector<std::string> paths, std::uint64_t part,
+                                         OpenFile open) {
   return std::make_unique<JoinedBytes>(std::move(paths), part, std::move(open));
 }
 

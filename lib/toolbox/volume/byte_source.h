@@ -62,11 +62,13 @@ std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, s
 std::unique_ptr<ByteSource> picked_bytes(std::unique_ptr<ByteSource> bytes, std::uint64_t block,
                                          std::uint64_t count, std::uint64_t place);
 
-/// Returns the first `part` bytes of each of `paths`, one after the other; `open` returns the bytes
-/// of one file. Reading throws Error(InputOutput), naming the file, if a file has fewer.
-std::unique_ptr<ByteSource> joined_bytes(
-    std::vector<std::string> paths, std::uint64_t part,
-    std::function<std::unique_ptr<ByteSource>(const std::string& path)> open);
+/// Opens the bytes of a file.
+using OpenFile = std::function<std::unique_ptr<ByteSource>(const std::string& path)>;
+
+/// Returns the first `part` bytes of each of `paths`, one after the other. Reading throws
+/// Error(InputOutput), naming the file, if a file has fewer.
+std::unique_ptr<ByteSource> joined_bytes(std::vector<std::string> paths, std::uint64_t part,
+                                         OpenFile open);
 
 /// Returns the size of a file in bytes. Throws Error(InputOutput) if it does not exist.
 std::uint64_t file_size(const std::string& path);

@@ -101,28 +101,30 @@ std::string sentence_without_slices(const std::string& folder,
               : "Save the slices as .tif or .png.");
 }
 
-/// Returns a name with # for each number in it, in lower case.
-std::string pattern_of(const std::string& path) {
+/// A name in lower case with # for each number in it, and these numbers.
+struct NumberedName {
   std::string pattern;
+  std::vector<std::string> numbers;
+};
+
+NumberedName numbered(const std::string& path) {
+  NumberedName name;
+  bool was_digit = false;
   for (const char c : lower_case(fs::path(path).stem().string())) {
     const bool is_digit = c >= '0' && c <= '9';
-    if (!is_digit) pattern += c;
-    if (is_digit && (pattern.empty() || pattern.back() != '#')) pattern += '#';
-  }
-  return pattern;
-}
-
-/// Returns the numbers in a name.
-std::vector<std::string> numbers_of(const std::string& path) {
-  std::vector<std::string> numbers;
-  bool was_digit = false;
-  for (const char c : fs::path(path).stem().string()) {
-    const bool is_digit = c >= '0' && c <= '9';
-    if (is_digit && !was_digit) numbers.emplace_back();
-    if (is_digit) numbers.back() += c;
+    if (!is_digit) name.pattern += c;
+    if (is_digit && (name.pattern.empty() || name.pattern.back() != '#')) name.pattern += '#';
+    if (is_digit && !was_digit) name.numbers.emplace_back();
+    if (is_digit) name.numbers.back() += c;
     was_digit = is_digit;
   }
-  return numbers;
+  return name;
+}
+
+/// Returns the last number of a name, if there is one.
+std::optional<std::int64_t> last_number(const std::string& path) {
+  const std::vector<std::string> numbers = numbered(path).numbers;
+  return numbers.empty() ? std::nullopt : whole_number_in(numbers.back());
 }
 
 /// Returns the names of one pattern in series: by the first number that is not another in each
@@ -130,7 +132,7 @@ std::vector<std::string> numbers_of(const std::string& path) {
 std::map<std::string, std::vector<std::string>> series_of(const std::vector<std::string>& paths) {
   std::vector<std::set<std::string>> values;
   for (const std::string& path : paths) {
-    const std::vector<std::string> numbers = numbers_of(path);
+    const std::vector<std::string> numbers = numbered(path).numbers;
     values.resize(std::max(values.size(), numbers.size()));
     for (std::size_t k = 0; k < numbers.size(); ++k) values[k].insert(numbers[k]);
   }
@@ -149,7 +151,7 @@ std::map<std::string, std::vector<std::string>> series_of(const std::vector<std:
     if (values[k].size() > 1 && (is_first || values[k].size() < values[fewest].size())) fewest = k;
   }
   for (const std::string& path : paths) {
-    const std::vector<std::string> numbers = numbers_of(path);
+    const std::vector<std::string> numbers = numbered(path).numbers;
     series[fewest < numbers.size() ? numbers[fewest] : ""].push_back(path);
   }
   return series;
@@ -160,8 +162,7 @@ bool may_be_one(const std::vector<std::string>& some, const std::vector<std::str
   std::set<std::optional<std::int64_t>> found;
   for (const std::vector<std::string>* const paths : {&some, &others}) {
     for (const std::string& path : *paths) {
-      const std::vector<std::string> numbers = numbers_of(path);
-      const auto number = numbers.empty() ? std::nullopt : whole_number_in(numbers.back());
+      const std::optional<std::int64_t> number = last_number(path);
       if (!number || !found.insert(number).second) return false;
     }
   }
@@ -179,8 +180,8 @@ bool may_be_numbers(const std::string& one, const std::string& other) {
                name.end());
     return name;
   };
-  return (pattern_of(one) != pattern_of(other) ||
-          pattern_of(one).find("#.#") < std::string::npos) &&
+  const std::string pattern = numbered(one).pattern;
+  return (pattern != numbered(other).pattern || pattern.find("#.#") < std::string::npos) &&
          rest(one) == rest(other);
 }
 
@@ -189,7 +190,7 @@ bool may_be_numbers(const std::string& one, const std::string& other) {
 void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
                      std::vector<std::string>& others) {
   std::map<std::string, std::vector<std::string>> by_pattern;
-  for (const std::string& path : paths) by_pattern[pattern_of(path)].push_back(path);
+  for (const std::string& path : paths) by_pattern[numbered(path).pattern].push_back(path);
   if (by_pattern.size() == paths.size()) return;  // names without an order of numbers
   std::vector<std::vector<std::string>> series;
   for (const auto& [pattern, files] : by_pattern) {
@@ -226,14 +227,14 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
 void check_numbers(const std::string& folder, const std::vector<std::string>& paths) {
   std::map<std::pair<std::string, std::vector<std::string>>, std::string> found;
   for (const std::string& path : paths) {
-    std::vector<std::string> numbers = numbers_of(path);
+    auto [pattern, numbers] = numbered(path);
     for (std::string& number : numbers) {
       number.erase(0, std::min(number.find_first_not_of('0'), number.size() - 1));
     }
     if (numbers.empty()) continue;
     const std::string last = numbers.back();
     const std::string name = name_of(path);
-    const auto [other, is_new] = found.emplace(std::pair(pattern_of(path), numbers), name);
+    const auto [other, is_new] = found.emplace(std::pair(pattern, numbers), name);
     if (is_new) continue;
     refuse_volume(folder, "has the number " + last + " twice: " + in_quotes(other->second) +
                               " and " + in_quotes(name) +
@@ -261,9 +262,7 @@ std::string sentence_of_gap(const std::vector<std::string>& paths,
 std::vector<std::int64_t> rising_numbers(const std::vector<std::string>& paths) {
   std::vector<std::int64_t> numbers;
   for (const std::string& path : paths) {
-    const std::vector<std::string> in_name = numbers_of(path);
-    if (in_name.empty()) return {};
-    const std::optional<std::int64_t> number = whole_number_in(in_name.back());
+    const std::optional<std::int64_t> number = last_number(path);
     if (!number || (!numbers.empty() && *number <= numbers.back())) return {};
     numbers.push_back(*number);
   }

@@ -3,6 +3,7 @@
 
 #include "toolbox/volume/label_grains.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_writers.h"
 
 namespace wscvt {
 
@@ -57,9 +58,8 @@ std::string label_row(const std::string& volume, const LabelGrains& grains,
                                      format_exact(voxel * static_cast<double>(label.voxels)),
                                      geometry.unit};
   const Eigen::AlignedBox3d box = box_of(label, geometry);
-  for (const Vector3& corner : {box.min(), box.max()}) {
-    for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
-  }
+  append_exact(fields, box.min());
+  append_exact(fields, box.max());
   fields.push_back(std::to_string(label.pieces));
   fields.push_back(format_exact(label.left_out()));
   if (outcome.grain == nullptr || outcome.grain->mesh.points.empty()) {

@@ -10,7 +10,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
-#include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/text_writers.h"
 
 namespace wscvt {
 
@@ -50,11 +50,6 @@ class LabelPacker {
   std::string packed_;
 };
 
-std::string numbers_text(const Vector3& values, const char* between) {
-  return format_exact(values[0]) + between + format_exact(values[1]) + between +
-         format_exact(values[2]);
-}
-
 std::string count_text(const VoxelCounts& counts) {
   return std::to_string(counts[0]) + " " + std::to_string(counts[1]) + " " +
          std::to_string(counts[2]);
@@ -68,8 +63,8 @@ std::string nrrd_header(const VolumeGeometry& geometry, bool is_short) {
   std::string text = std::string("NRRD0004\ntype: ") + (is_short ? "uint16" : "uint32") +
                      "\ndimension: 3\nsizes: " + count_text(geometry.counts) +
                      "\nencoding: gzip\nendian: little\nspace dimension: 3\nspace directions:";
-  for (Eigen::Index k = 0; k < 3; ++k) text += " (" + numbers_text(geometry.axes.col(k), ",") + ")";
-  text += "\nspace origin: (" + numbers_text(place_of_first(geometry), ",") + ")\n";
+  for (Eigen::Index k = 0; k < 3; ++k) text += " (" + vector_text(geometry.axes.col(k), ",") + ")";
+  text += "\nspace origin: (" + vector_text(place_of_first(geometry), ",") + ")\n";
   if (!geometry.unit.empty()) {
     const std::string quoted = '"' + geometry.unit + '"';
     text += "space units: " + quoted + " " + quoted + " " + quoted + "\n";
@@ -81,14 +76,14 @@ std::string meta_image_header(const VolumeGeometry& geometry, bool is_short, std
   const Vector3 lengths = geometry.axes.colwise().norm();
   std::string matrix;
   for (Eigen::Index k = 0; k < 3; ++k) {
-    matrix += " " + numbers_text(geometry.axes.col(k) / lengths[k], " ");
+    matrix += " " + vector_text(geometry.axes.col(k) / lengths[k]);
   }
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nBinaryDataByteOrderMSB = False\n"
          "CompressedData = True\nCompressedDataSize = " +
          std::to_string(packed) + "\nTransformMatrix =" + matrix +
-         "\nOffset = " + numbers_text(place_of_first(geometry), " ") +
+         "\nOffset = " + vector_text(place_of_first(geometry)) +
          (geometry.unit.empty() ? "" : "\nDistanceUnits = " + geometry.unit) +
-         "\nElementSpacing = " + numbers_text(lengths, " ") +
+         "\nElementSpacing = " + vector_text(lengths) +
          "\nDimSize = " + count_text(geometry.counts) +
          "\nElementType = " + (is_short ? "MET_USHORT" : "MET_UINT") +
          "\nElementDataFile = LOCAL\n";

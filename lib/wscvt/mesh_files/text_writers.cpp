@@ -10,8 +10,12 @@
 
 namespace wscvt {
 
-std::string vector_text(const Vector3& v) {
-  return format_exact(v.x()) + " " + format_exact(v.y()) + " " + format_exact(v.z());
+std::string vector_text(const Vector3& v, const std::string& between) {
+  return format_exact(v.x()) + between + format_exact(v.y()) + between + format_exact(v.z());
+}
+
+void append_exact(std::vector<std::string>& fields, const Vector3& v) {
+  for (const double coordinate : v) fields.push_back(format_exact(coordinate));
 }
 
 namespace {

@@ -3,6 +3,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "wscvt/base/indexed_mesh.h"
 
@@ -12,7 +13,10 @@ namespace wscvt {
 // double, unless stated otherwise.
 
 /// Returns "x y z", with the digits that read back to the same doubles.
-std::string vector_text(const Vector3& v);
+std::string vector_text(const Vector3& v, const std::string& between = " ");
+
+/// Appends x, y and z with the same digits.
+void append_exact(std::vector<std::string>& fields, const Vector3& v);
 
 /// Writes STL as text: one solid, with the triangles' normals.
 void write_stl_text(std::ostream& stream, const IndexedMesh& mesh);
