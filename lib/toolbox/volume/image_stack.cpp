@@ -22,21 +22,21 @@ namespace fs = std::filesystem;
 std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
 
 /// The opener of each kind of slices: TIFF, PNG, BMP.
-constexpr std::size_t kinds = 3;
-constexpr std::array<OpenSlices, kinds> openers = {open_tiff_slices, open_png_slices,
-                                                   open_bmp_slices};
+constexpr std::size_t slice_kinds = 3;
+constexpr std::array<OpenSlices, slice_kinds> slice_openers = {open_tiff_slices, open_png_slices,
+                                                               open_bmp_slices};
 
-/// Returns the kind of a slice by its name; `kinds`: it is none.
-std::size_t kind_of(const std::string& name) {
+/// Returns the kind of a slice by its name; `slice_kinds`: it is none.
+std::size_t slice_kind_of(const std::string& name) {
   const std::string ending = ending_of(name);
   if (ending == ".tif" || ending == ".tiff") return 0;
-  return ending == ".png" ? 1 : ending == ".bmp" ? 2 : kinds;
+  return ending == ".png" ? 1 : ending == ".bmp" ? 2 : slice_kinds;
 }
 
 /// Files of a folder.
 struct FolderContent {
-  std::array<std::vector<std::string>, kinds> slices;  ///< paths
-  std::vector<std::string> others;                     ///< names
+  std::array<std::vector<std::string>, slice_kinds> slices;  ///< paths
+  std::vector<std::string> others;                           ///< names
 };
 
 FolderContent content_of(const std::string& folder) {
@@ -46,7 +46,7 @@ FolderContent content_of(const std::string& folder) {
     const std::string name = entry.path().filename().string();
     const bool is_taken = !is_foreign_file(name) && is_slice(name) && !entry.is_directory(error);
     if (is_taken) {
-      content.slices[kind_of(name)].push_back(entry.path().string());
+      content.slices[slice_kind_of(name)].push_back(entry.path().string());
     } else {
       content.others.push_back(name);
     }
@@ -407,14 +407,14 @@ bool is_foreign_file(const std::string& name) {
          lower == "desktop.ini" || lower == "__macosx";
 }
 
-bool is_slice(const std::string& name) { return kind_of(name) < kinds; }
+bool is_slice(const std::string& name) { return slice_kind_of(name) < slice_kinds; }
 
 std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeChoice& choice) {
   auto [found, others] = content_of(path);
-  std::size_t kind = kinds;
-  for (std::size_t k = 0; k < kinds; ++k) {
+  std::size_t kind = slice_kinds;
+  for (std::size_t k = 0; k < slice_kinds; ++k) {
     if (found[k].empty()) continue;
-    if (kind < kinds) {
+    if (kind < slice_kinds) {
       refuse_volume(path, "holds " + std::to_string(found[0].size()) + " .tif, " +
                               std::to_string(found[1].size()) + " .png and " +
                               std::to_string(found[2].size()) +
@@ -422,7 +422,7 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
     }
     kind = k;
   }
-  if (kind == kinds) refuse_volume(path, sentence_without_slices(path, others));
+  if (kind == slice_kinds) refuse_volume(path, sentence_without_slices(path, others));
   SliceFiles slices = {path, std::move(found[kind])};
   std::vector<std::int64_t> numbers = sort_hexadecimal(slices.paths);
   const bool is_hexadecimal = !numbers.empty();
@@ -431,7 +431,7 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
     check_numbers(path, slices.paths);
     numbers = rising_numbers(slices.paths);
   }
-  std::unique_ptr<LabelVolume> volume = openers[kind](slices, choice);
+  std::unique_ptr<LabelVolume> volume = slice_openers[kind](slices, choice);
   if (!others.empty()) volume->add_note(sentence_of_others(others));
   if (is_hexadecimal) volume->add_note("The slices were read in the order of hexadecimal numbers.");
   const std::string gap = sentence_of_gap(slices.paths, numbers);

@@ -65,7 +65,7 @@ std::uint64_t end_of_numbers(const std::string& path, std::uint64_t begin, std::
 /// Reads keywords and arrays in turn: an array's numbers are between its line and the next keyword.
 class VtkParser {
  public:
-  explicit VtkParser(const std::string& path) : path_(path) { restart(0); }
+  explicit VtkParser(const std::string& path) : path_(path) { file_.emplace(path, 0); }
 
   VtkHeader read() {
     if (next_line().rfind("# vtk DataFile Version", 0) != 0) {
@@ -104,19 +104,15 @@ class VtkParser {
   }
 
  private:
-  void restart(std::uint64_t begin) { file_.emplace(path_, begin); }
-
   std::string next_line() { return file_->line(); }
-
-  Vector3 vector_of(TextFields& fields) { return vector_in(fields.rest(), *file_); }
 
   void read_keyword(const std::string& key, TextFields& fields) {
     if (key == "dimensions") {
       for (std::int64_t& count : header_.counts) count = whole_number_of(fields.next(), *file_);
     } else if (key == "origin") {
-      header_.origin = vector_of(fields);
+      header_.origin = vector_in(fields.rest(), *file_);
     } else if (key == "spacing" || key == "aspect_ratio") {
-      header_.spacing = vector_of(fields);
+      header_.spacing = vector_in(fields.rest(), *file_);
       header_.has_size = true;
     } else if (key == "point_data" || key == "cell_data") {
       of_cells_ = key == "cell_data";
@@ -182,14 +178,13 @@ class VtkParser {
     array.data = file_->offset();
     const auto numbers =
         static_cast<std::uint64_t>(voxels_) * static_cast<std::uint64_t>(array.components);
-    std::uint64_t end = 0;
-    if (header_.is_text) {
-      end = end_of_numbers(path_, array.data, numbers);
-    } else {
-      end = array.data + numbers * static_cast<std::uint64_t>(vtk_type_of(array.type, path_).bytes);
-    }
+    const std::uint64_t end =
+        header_.is_text
+            ? end_of_numbers(path_, array.data, numbers)
+            : array.data +
+                  numbers * static_cast<std::uint64_t>(vtk_type_of(array.type, path_).bytes);
     header_.arrays.push_back(std::move(array));
-    restart(end);
+    file_.emplace(path_, end);
   }
 
   std::string path_;

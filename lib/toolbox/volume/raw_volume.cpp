@@ -33,10 +33,9 @@ Json description_of(const std::string& path) {
 /// Refuses unknown keys, which may be misspelled.
 void check_keys(const Json& description, const std::string& path) {
   for (const auto& [key, value] : description.items()) {
-    const auto is_key = [&key = key](const char* known) { return key == known; };
     constexpr std::array<const char*, 8> known = {"dimensions", "type", "byte_order", "spacing",
                                                   "origin",     "unit", "offset",     "file"};
-    if (std::any_of(known.begin(), known.end(), is_key)) continue;
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
     refuse_volume(path, "has the key " + in_quotes(key) +
                             ", which is not for raw files. See lib/doc/files.md for the keys.");
   }

@@ -95,11 +95,10 @@ void read_unit(const ImageJText& text, TiffLayout& layout) {
 }
 
 TiffLayout layout_of_imagej(const std::string& description, std::int64_t pages,
-                            std::int64_t samples, const std::string& path) {
+                            const std::string& path) {
   const ImageJText text(description);
   TiffLayout layout;
   layout.writer = "ImageJ";
-  layout.samples = samples;
   layout.axes = {{AxisKind::Channel, text.count("channels")},
                  {AxisKind::Space, text.count("slices")},
                  {AxisKind::Frame, text.count("frames")}};
@@ -194,7 +193,6 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
                               const std::string& path) {
   TiffLayout layout;
   layout.writer = "tifffile";
-  layout.samples = page.samples;
   // Other keys are the caller's; these two are named as in ImageJ's text.
   if (json.contains("spacing") && json["spacing"].is_number()) {
     layout.voxel_size = Vector3::Constant(std::abs(json["spacing"].get<double>()));
@@ -463,11 +461,9 @@ OmeImage image_of_slices(const std::string& xml, const std::string& path, TiffLa
 
 TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffPageShape& page,
                          const std::string& path) {
-  const std::int64_t samples = page.samples;
   TiffLayout layout;
   const OmeImage image = image_of_slices(xml, path, layout);
   layout.writer = "OME";
-  layout.samples = samples;
   const auto found = image.pixels.find("DimensionOrder");
   const std::string order = found == image.pixels.end() ? "XYZCT" : found->second;
   std::string letters = order;
@@ -482,13 +478,13 @@ TiffLayout layout_of_ome(const std::string& xml, std::int64_t pages, const TiffP
       layout.axes.push_back({AxisKind::Space, count_of(image.pixels, key, 1, 1, path)});
     } else if (letter == 'C') {
       const std::int64_t channels = count_of(image.pixels, key, 1, 1, path);
-      if (channels % samples != 0) {
-        refuse_volume(path, "has " + std::to_string(samples) + " numbers per voxel, but " +
+      if (channels % page.samples != 0) {
+        refuse_volume(path, "has " + std::to_string(page.samples) + " numbers per voxel, but " +
                                 std::to_string(channels) +
                                 " channels by OME's text. Export it "
                                 "again.");
       }
-      layout.axes.push_back({AxisKind::Channel, channels / samples});
+      layout.axes.push_back({AxisKind::Channel, channels / page.samples});
     } else {
       layout.axes.push_back({AxisKind::Frame, count_of(image.pixels, key, 1, 1, path)});
     }
@@ -575,8 +571,7 @@ TiffLayout slice_layout(const std::string& description, const std::string& path)
 
 TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPageShape& page,
                        const std::string& path) {
-  const std::int64_t samples = page.samples;
-  if (text.rfind("ImageJ=", 0) == 0) return layout_of_imagej(text, pages, samples, path);
+  if (text.rfind("ImageJ=", 0) == 0) return layout_of_imagej(text, pages, path);
   if (is_ome(text)) return layout_of_ome(text, pages, page, path);
   const std::size_t first = text.find_first_not_of(blanks);
   if (first != std::string::npos && text[first] == '{') {
@@ -586,7 +581,6 @@ TiffLayout tiff_layout(const std::string& text, std::int64_t pages, const TiffPa
     }
   }
   TiffLayout layout;
-  layout.samples = samples;
   layout.axes = {{AxisKind::Space, pages}};
   return layout;
 }

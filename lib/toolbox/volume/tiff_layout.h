@@ -18,7 +18,6 @@ struct TiffLayout {
   std::vector<VolumeAxis> axes;
   /// The page of each position in `axes`; empty: they are consecutive.
   std::vector<std::int64_t> pages;
-  std::int64_t samples = 1;  ///< numbers per voxel, on one page
   /// Not above 0 if unknown. ImageJ's and tifffile's is along z; x and y come from the resolution.
   Vector3 voxel_size = Vector3::Zero();
   std::string unit;
