@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string name_of(const std::string& path) { return fs::path(path).filename().string(); }
+std::string slice_name(const std::string& path) { return fs::path(path).filename().string(); }
 
 /// The opener of each kind of slices: TIFF, PNG, BMP.
 constexpr std::size_t slice_kinds = 3;
@@ -198,7 +198,7 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
   }
   std::stable_sort(series.begin(), series.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  const auto name = [](const std::string& path) { return "\"" + name_of(path) + "\""; };
+  const auto name = [](const std::string& path) { return "\"" + slice_name(path) + "\""; };
   // A preview, a mask of one slice or a logo is one file or two.
   constexpr std::size_t most_odd = 2;
   if (series.size() > 1 && (series[1].size() > most_odd || series[1].size() == series[0].size())) {
@@ -217,7 +217,7 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
                            : ". Move one of them to a folder of its own."));
   }
   for (std::size_t k = 1; k < series.size(); ++k) {
-    for (const std::string& path : series[k]) others.push_back(name_of(path));
+    for (const std::string& path : series[k]) others.push_back(slice_name(path));
   }
   std::sort(others.begin(), others.end());
   paths = series.front();
@@ -233,7 +233,7 @@ void check_numbers(const std::string& folder, const std::vector<std::string>& pa
     }
     if (numbers.empty()) continue;
     const std::string last = numbers.back();
-    const std::string name = name_of(path);
+    const std::string name = slice_name(path);
     const auto [other, is_new] = found.emplace(std::pair(pattern, numbers), name);
     if (is_new) continue;
     refuse_volume(folder, "has the number " + last + " twice: " + in_quotes(other->second) +
@@ -251,8 +251,8 @@ std::string sentence_of_gap(const std::vector<std::string>& paths,
   }
   for (std::size_t k = 1; k < numbers.size(); ++k) {
     if (numbers[k] - numbers[k - 1] == step) continue;
-    return "There is no slice between " + in_quotes(name_of(paths[k - 1])) + " and " +
-           in_quotes(name_of(paths[k])) +
+    return "There is no slice between " + in_quotes(slice_name(paths[k - 1])) + " and " +
+           in_quotes(slice_name(paths[k])) +
            ". They were used as neighbours. Look for the missing slices.";
   }
   return "";
