@@ -32,7 +32,7 @@ class HeaderFile {
   std::uint64_t size() const { return size_; }
 
   /// Throws Error(InputOutput), naming the last line read.
-  [[noreturn]] void fail_line(const std::string& what) const { reader_.fail_line(what); }
+  [[noreturn]] void fail_line(const std::string& what) const { reader_.refuse_line(what); }
 
  private:
   std::uint64_t size_;

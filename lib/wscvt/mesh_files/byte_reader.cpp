@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
+#include <limits>
 #include <memory>
 #include <system_error>
 #include <utility>
@@ -114,13 +115,21 @@ std::optional<std::string_view> ByteReader::filled_line() {
   return {};
 }
 
-void ByteReader::fail(const std::string& what) const {
+void ByteReader::refuse(const std::string& what) const {
   throw Error(ErrorCode::InputOutput, "\"" + path_ + "\" " + what);
 }
 
-void ByteReader::fail_line(const std::string& what) const {
-  throw Error(ErrorCode::InputOutput,
-              "\"" + path_ + "\" line " + std::to_string(line_number_) + " " + what);
+void ByteReader::refuse_line(const std::string& what) const {
+  refuse("line " + std::to_string(line_number_) + " " + what);
+}
+
+void ByteReader::check_count(std::uintmax_t count, const char* more) const {
+  constexpr auto most = static_cast<std::uintmax_t>(std::numeric_limits<std::int32_t>::max());
+  if (count > most) refuse(std::string(more) + " than can be numbered. Reduce the scan first.");
+}
+
+void ByteReader::fail_field(std::string_view field, const std::string& due) const {
+  fail_line("has " + in_quotes(field) + " instead of " + due);
 }
 
 bool is_gzip(const std::string& path) {

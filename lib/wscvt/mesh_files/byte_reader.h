@@ -59,13 +59,25 @@ class ByteReader {
   void warn(const std::string& what) { warnings_.push_back("\"" + path_ + "\" " + what); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Throws Error(InputOutput): "path" + what.
-  [[noreturn]] void fail(const std::string& what) const;
+  /// Throws Error(InputOutput): "path" + what, which ends with advice.
+  [[noreturn]] void refuse(const std::string& what) const;
 
-  /// Throws Error(InputOutput), naming the line read last.
-  [[noreturn]] void fail_line(const std::string& what) const;
+  /// Throws as `refuse`, naming the line read last.
+  [[noreturn]] void refuse_line(const std::string& what) const;
+
+  /// Throw as the functions above for wrong content, with the advice to export the file again.
+  [[noreturn]] void fail(const std::string& what) const { refuse(what + export_again); }
+  [[noreturn]] void fail_line(const std::string& what) const { refuse_line(what + export_again); }
+
+  /// Throws as `refuse` if things cannot be numbered. `more`: such as "has more points".
+  void check_count(std::uintmax_t count, const char* more) const;
+
+  /// Throws as fail_line: it has `field` instead of `due`.
+  [[noreturn]] void fail_field(std::string_view field, const std::string& due) const;
 
  private:
+  static constexpr const char* export_again = ". Export it again from the program it came from.";
+
   bool fill(std::size_t count);
 
   std::istream& stream_;
@@ -131,9 +143,6 @@ Number load_as(Stored type, boost::endian::order order, const char* bytes) {
   }
   return read(double());
 }
-
-/// The advice for a file with wrong content.
-inline constexpr const char* export_again = ". Export it again from the program it came from.";
 
 /// Whether a file begins as a gzip file.
 bool is_gzip(const std::string& path);

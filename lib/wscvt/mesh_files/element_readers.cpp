@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
 #include <cstdlib>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,11 +24,9 @@ class ElementMesh {
   explicit ElementMesh(ByteReader& reader) : reader_(reader) {}
 
   void add_node(std::int64_t number, const Vector3& point) {
-    if (points_.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader_.fail("has more nodes than can be numbered. Reduce the scan first.");
-    }
+    reader_.check_count(points_.size() + 1, "has more nodes");
     if (!known_.emplace(number, static_cast<std::int32_t>(points_.size())).second) {
-      reader_.fail_line("gives node " + std::to_string(number) + " a second time" + export_again);
+      reader_.fail_line("gives node " + std::to_string(number) + " a second time");
     }
     points_.push_back(point);
   }
@@ -44,9 +41,9 @@ class ElementMesh {
 
   /// Nodes may follow the elements that use them. Appends the names of groups.
   IndexedMesh mesh(std::vector<NamedFaces>& lists) {
-    if (points_.empty()) reader_.fail("holds no nodes" + std::string(export_again));
+    if (points_.empty()) reader_.fail("holds no nodes");
     if (ends_.empty()) {
-      reader_.fail("holds no triangles or quadrilaterals. Save the surface of the grain too.");
+      reader_.refuse("holds no triangles or quadrilaterals. Save the surface of the grain too.");
     }
     IndexedMesh mesh;
     mesh.points = std::move(points_);
@@ -66,8 +63,7 @@ class ElementMesh {
       for (; begin < end; ++begin) {
         const auto found = known_.find(faces_[begin]);
         if (found == known_.end()) {
-          reader_.fail("names node " + std::to_string(faces_[begin]) + ", which it does not hold" +
-                       export_again);
+          reader_.fail("names node " + std::to_string(faces_[begin]) + ", which it does not hold");
         }
         corners.push_back(found->second);
       }
@@ -112,8 +108,7 @@ class GmshReader {
         read_format();
         has_format = true;
       } else if (!has_format) {
-        reader_.fail("does not begin with \"$MeshFormat\" and is not a mesh of Gmsh" +
-                     std::string(export_again));
+        reader_.fail("does not begin with \"$MeshFormat\" and is not a mesh of Gmsh");
       } else if (section == "$PhysicalNames") {
         read_group_names();
       } else if (section == "$Entities") {
@@ -132,7 +127,7 @@ class GmshReader {
 
   TextFields next_fields() {
     const std::optional<std::string_view> line = reader_.filled_line();
-    if (!line) reader_.fail("ends within a section. It was cut off" + std::string(export_again));
+    if (!line) reader_.fail("ends within a section. It was cut off");
     return TextFields(*line);
   }
 
@@ -140,13 +135,17 @@ class GmshReader {
   Number number(TextFields& fields) {
     const std::string_view field = fields.next();
     const std::optional<Number> value = number_of_type<Number>(field);
-    if (!value) {
-      reader_.fail_line("has " + in_quotes(field) + " instead of a number" + export_again);
-    }
+    if (!value) reader_.fail_field(field, "a number");
     return *value;
   }
 
   std::int64_t whole(TextFields& fields) { return number<std::int64_t>(fields); }
+
+  /// Returns the first number of the next line.
+  std::int64_t next_whole() {
+    TextFields fields = next_fields();
+    return whole(fields);
+  }
 
   Vector3 point(TextFields& fields) {
     Vector3 place;
@@ -159,15 +158,14 @@ class GmshReader {
     const std::string version(fields.next());
     is_old_ = version == "2" || version.rfind("2.", 0) == 0;
     if (!is_old_ && version != "4.1") {
-      reader_.fail_line("gives the version " + in_quotes(version) +
-                        ". Save the mesh as version 4.1 or 2 of Gmsh.");
+      reader_.refuse_line("gives the version " + in_quotes(version) +
+                          ". Save the mesh as version 4.1 or 2 of Gmsh.");
     }
-    if (whole(fields) != 0) reader_.fail("is a binary mesh of Gmsh. Save it as text.");
+    if (whole(fields) != 0) reader_.refuse("is a binary mesh of Gmsh. Save it as text.");
   }
 
   void read_group_names() {
-    TextFields counts = next_fields();
-    const std::int64_t count = whole(counts);
+    const std::int64_t count = next_whole();
     for (std::int64_t k = 0; k < count; ++k) {
       TextFields fields = next_fields();
       const std::int64_t dimension = whole(fields);
@@ -204,8 +202,7 @@ class GmshReader {
   }
 
   void read_old_nodes() {
-    TextFields counts = next_fields();
-    const std::int64_t count = whole(counts);
+    const std::int64_t count = next_whole();
     for (std::int64_t k = 0; k < count; ++k) {
       TextFields fields = next_fields();
       const std::int64_t tag = whole(fields);
@@ -214,8 +211,7 @@ class GmshReader {
   }
 
   void read_nodes() {
-    TextFields counts = next_fields();
-    const std::int64_t blocks = whole(counts);
+    const std::int64_t blocks = next_whole();
     for (std::int64_t block = 0; block < blocks; ++block) {
       TextFields heading = next_fields();
       whole(heading);  // dimension
@@ -223,10 +219,7 @@ class GmshReader {
       whole(heading);  // whether parameters follow the coordinates
       const std::int64_t count = whole(heading);
       std::vector<std::int64_t> tags;
-      for (std::int64_t k = 0; k < count; ++k) {
-        TextFields fields = next_fields();
-        tags.push_back(whole(fields));
-      }
+      for (std::int64_t k = 0; k < count; ++k) tags.push_back(next_whole());
       for (const std::int64_t tag : tags) {
         TextFields fields = next_fields();
         mesh_.add_node(tag, point(fields));
@@ -243,8 +236,7 @@ class GmshReader {
   }
 
   void read_old_elements() {
-    TextFields counts = next_fields();
-    const std::int64_t count = whole(counts);
+    const std::int64_t count = next_whole();
     for (std::int64_t k = 0; k < count; ++k) {
       TextFields fields = next_fields();
       whole(fields);  // its number
@@ -257,8 +249,7 @@ class GmshReader {
   }
 
   void read_elements() {
-    TextFields counts = next_fields();
-    const std::int64_t blocks = whole(counts);
+    const std::int64_t blocks = next_whole();
     for (std::int64_t block = 0; block < blocks; ++block) {
       TextFields heading = next_fields();
       const bool is_surface = whole(heading) == surface_;
@@ -295,6 +286,23 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return fields;
 }
 
+/// An option of a keyword's line: "ELSET=Grain".
+struct AbaqusOption {
+  std::string key;  ///< in lower case
+  std::string_view value;
+};
+
+std::vector<AbaqusOption> options_of(const std::vector<std::string_view>& fields) {
+  std::vector<AbaqusOption> options;
+  for (const std::string_view field : fields) {
+    const std::size_t equals = field.find('=');
+    if (equals == std::string_view::npos) continue;
+    options.push_back(
+        {lower_case(trimmed(field.substr(0, equals))), trimmed(field.substr(equals + 1))});
+  }
+  return options;
+}
+
 /// Returns the corners of a shell, membrane, rigid or plane element by its type, such as "S3R",
 /// "STRI65", "M3D4" or "CPS6M"; 0 for others.
 std::size_t corners_of_abaqus(const std::string& type) {
@@ -308,7 +316,7 @@ std::size_t corners_of_abaqus(const std::string& type) {
 }
 
 [[noreturn]] void refuse_instances(const ByteReader& reader) {
-  reader.fail_line(
+  reader.refuse_line(
       "moves or repeats a part by *INSTANCE, which is not read. Write the file without parts and "
       "assemblies (Abaqus: Model > Edit Attributes).");
 }
@@ -318,30 +326,25 @@ std::size_t corners_of_abaqus(const std::string& type) {
 void judge_abaqus_keyword(const std::vector<std::string_view>& fields, ByteReader& reader) {
   const std::string keyword = lower_case(fields[0]);
   const bool has_data = keyword == "*node" || keyword == "*element";
-  for (const std::string_view field : fields) {
-    const std::string option = lower_case(field);
-    const std::size_t equals = option.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string key(trimmed(std::string_view(option).substr(0, equals)));
-    const std::string_view value = trimmed(field.substr(equals + 1));
+  for (const auto& [key, value] : options_of(fields)) {
     if (key == "input" && (has_data || keyword == "*include")) {
-      reader.fail_line("has its lines in the file " + in_quotes(value) +
-                       ", which is not read. Put them in the place of this line.");
+      reader.refuse_line("has its lines in the file " + in_quotes(value) +
+                         ", which is not read. Put them in the place of this line.");
     }
     if (keyword == "*node" && key == "system" && lower_case(value) != "r") {
-      reader.fail_line("gives nodes in " +
-                       std::string(lower_case(value) == "c" ? "cylindrical" : "spherical") +
-                       " coordinates, which are not read. Write x, y and z.");
+      reader.refuse_line("gives nodes in " +
+                         std::string(lower_case(value) == "c" ? "cylindrical" : "spherical") +
+                         " coordinates, which are not read. Write x, y and z.");
     }
   }
   if (keyword == "*system") {
-    reader.fail_line(
+    reader.refuse_line(
         "moves nodes by *SYSTEM, which is not read. Write their coordinates without it.");
   }
   for (const char* const maker : {"*ngen", "*nfill", "*ncopy", "*nmap", "*elgen", "*elcopy"}) {
     if (keyword != maker) continue;
-    reader.fail_line("makes nodes or elements by " + in_quotes(keyword) +
-                     ", which is not read. Write them all, as Abaqus/CAE does.");
+    reader.refuse_line("makes nodes or elements by " + in_quotes(keyword) +
+                       ", which is not read. Write them all, as Abaqus/CAE does.");
   }
   if (keyword == "*transform") {
     reader.warn(
@@ -364,9 +367,7 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
   std::vector<std::int64_t> nodes;
   const auto whole = [&](std::string_view field) {
     const std::optional<std::int64_t> value = whole_number_in(field);
-    if (!value) {
-      reader.fail_line("has " + in_quotes(field) + " instead of a number" + export_again);
-    }
+    if (!value) reader.fail_field(field, "a number");
     return *value;
   };
   while (const std::optional<std::string_view> line = reader.filled_line()) {
@@ -383,25 +384,17 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
       if (block == Block::Instance && std::exchange(has_instance, true)) refuse_instances(reader);
       if (keyword != "*element") continue;
       group.clear();
-      for (const std::string_view field : fields) {
-        const std::string option = lower_case(field);
-        const std::size_t equals = option.find('=');
-        if (equals == std::string::npos) continue;
-        const std::string key(trimmed(std::string_view(option).substr(0, equals)));
-        if (key == "elset") group = trimmed(field.substr(equals + 1));
+      for (const auto& [key, value] : options_of(fields)) {
+        if (key == "elset") group = value;
         if (key != "type") continue;
-        corners =
-            corners_of_abaqus(std::string(trimmed(std::string_view(option).substr(equals + 1))));
+        corners = corners_of_abaqus(lower_case(value));
         if (corners > 0) block = Block::Faces;
       }
     } else if (block == Block::Nodes) {
       Vector3 point = Vector3::Zero();
       for (std::size_t k = 1; k < fields.size() && k <= 3; ++k) {
         const std::optional<double> value = number_in(fields[k]);
-        if (!value) {
-          reader.fail_line("has " + in_quotes(fields[k]) + " instead of a coordinate" +
-                           export_again);
-        }
+        if (!value) reader.fail_field(fields[k], "a coordinate");
         point[static_cast<Eigen::Index>(k - 1)] = *value;
       }
       mesh.add_node(whole(fields[0]), point);
@@ -411,9 +404,7 @@ void read_abaqus(ByteReader& reader, MeshFile& file) {
         if (number_in(field) != 0.0) refuse_instances(reader);
       }
     } else if (block == Block::Faces) {
-      if (fields.size() < corners + 1) {
-        reader.fail_line("has fewer nodes than its type of element" + std::string(export_again));
-      }
+      if (fields.size() < corners + 1) reader.fail_line("has fewer nodes than its type of element");
       nodes.clear();
       for (std::size_t k = 1; k <= corners; ++k) nodes.push_back(whole(fields[k]));
       mesh.add_face(nodes, group);

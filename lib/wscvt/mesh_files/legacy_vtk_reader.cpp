@@ -47,14 +47,11 @@ class LegacyVtkReader {
   /// Appends the labels of the faces: arrays of one whole number for each.
   IndexedMesh read(std::vector<NamedFaces>& names) {
     if (lower_case(reader_.line().value_or("")).rfind("# vtk datafile version", 0) != 0) {
-      reader_.fail("does not begin with \"# vtk DataFile Version\" and is not a VTK file" +
-                   std::string(export_again));
+      reader_.fail("does not begin with \"# vtk DataFile Version\" and is not a VTK file");
     }
     reader_.line();  // a title
     const std::string form = lower_case(TextFields(reader_.line().value_or("")).next());
-    if (form != "ascii" && form != "binary") {
-      reader_.fail_line("is neither ASCII nor BINARY" + std::string(export_again));
-    }
+    if (form != "ascii" && form != "binary") reader_.fail_line("is neither ASCII nor BINARY");
     is_text_ = form == "ascii";
     bool goes_on = true;
     while (goes_on) {
@@ -69,7 +66,7 @@ class LegacyVtkReader {
       add_polygons(list, strips, 0, reader_, mesh_, cell, cells);
       cell += list.ends.size();
     }
-    if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    if (mesh_.points.empty()) reader_.fail("holds no points");
     if (cell_types_.empty()) read_labels(cells, names);
     return std::move(mesh_);
   }
@@ -79,19 +76,14 @@ class LegacyVtkReader {
   bool read_section(const std::string& line) {
     TextFields fields(line);
     const std::string key = lower_case(fields.next());
-    if (key == "point_data" || key == "cell_data") {
-      is_of_cells_ = key == "cell_data";
-      data_count_ = count_in(fields);
-      return false;
-    }
+    if (begins_data(key, fields)) return false;
     if (key == "metadata") {
-      while (!TextFields(reader_.line().value_or("")).next().empty()) {
-      }
+      skip_metadata();
     } else if (key == "dataset") {
       const std::string kind = lower_case(fields.next());
       if (kind != "polydata" && kind != "unstructured_grid") {
-        reader_.fail("holds " + in_quotes(kind) +
-                     ", not the polygons of a mesh. Save a surface as POLYDATA.");
+        reader_.refuse("holds " + in_quotes(kind) +
+                       ", not the polygons of a mesh. Save a surface as POLYDATA.");
       }
     } else if (key == "field") {
       fields.next();
@@ -108,9 +100,23 @@ class LegacyVtkReader {
     } else if (key == "cell_types") {
       cell_types_ = numbers<std::int64_t>(Stored::Int32, count_in(fields));
     } else {
-      reader_.fail_line("has " + in_quotes(key) + " instead of a part of a mesh" + export_again);
+      reader_.fail_field(key, "a part of a mesh");
     }
     return true;
+  }
+
+  /// Whether a line begins the data of points or faces; reads it then.
+  bool begins_data(const std::string& key, TextFields& fields) {
+    if (key != "point_data" && key != "cell_data") return false;
+    is_of_cells_ = key == "cell_data";
+    data_count_ = count_in(fields);
+    return true;
+  }
+
+  /// Metadata end with a blank line.
+  void skip_metadata() {
+    while (!TextFields(reader_.line().value_or("")).next().empty()) {
+    }
   }
 
   /// Reads the data of points and faces up to what is neither SCALARS nor FIELD. The mesh does not
@@ -120,11 +126,7 @@ class LegacyVtkReader {
       const std::size_t width = values.size() == 2 * data_count_ ? 2 : 1;  // of faces, or of sides
       if (!is_of_cells_ || values.size() != width * data_count_) return;
       std::vector<double> labels;
-      for (const std::size_t cell : cells) {
-        for (std::size_t k = width * cell; k < width * (cell + 1) && k < values.size(); ++k) {
-          labels.push_back(values[k]);
-        }
-      }
+      add_values_of_cells(values, width, cells, labels);
       append_labels(labels, mesh_.triangles.size(), names);
     };
     try {
@@ -132,12 +134,9 @@ class LegacyVtkReader {
         const std::string text(*line);
         TextFields fields(text);
         const std::string key = lower_case(fields.next());
-        if (key == "point_data" || key == "cell_data") {
-          is_of_cells_ = key == "cell_data";
-          data_count_ = count_in(fields);
-        } else if (key == "metadata") {
-          while (!TextFields(reader_.line().value_or("")).next().empty()) {
-          }
+        if (begins_data(key, fields)) continue;
+        if (key == "metadata") {
+          skip_metadata();
         } else if (key == "scalars") {
           fields.next();
           const Stored type = type_in(fields);
@@ -161,9 +160,7 @@ class LegacyVtkReader {
   void read_points(TextFields& fields) {
     const std::size_t count = count_in(fields);
     const Stored type = type_in(fields);
-    if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader_.fail("declares more points than can be numbered. Reduce the scan first.");
-    }
+    reader_.check_count(count, "declares more points");
     const auto coordinates = numbers<double>(type, 3 * count);
     mesh_.points.clear();
     mesh_.points.reserve(count);
@@ -190,7 +187,7 @@ class LegacyVtkReader {
       const std::int64_t length = at < all.size() ? all[at] : -1;
       if (length < 0 || static_cast<std::uint64_t>(length) > all.size() - at - 1) {
         reader_.fail("has a face of " + std::to_string(length) +
-                     " corners, which the file does not hold" + export_again);
+                     " corners, which the file does not hold");
       }
       const auto from = all.begin() + static_cast<std::ptrdiff_t>(at) + 1;
       result.corners.insert(result.corners.end(), from, from + length);
@@ -208,7 +205,7 @@ class LegacyVtkReader {
     TextFields rest(line);
     const Stored type = type_in(rest);
     if (type == Stored::Float32 || type == Stored::Float64) {
-      reader_.fail_line("announces corners that are not whole numbers" + std::string(export_again));
+      reader_.fail_line("announces corners that are not whole numbers");
     }
     return numbers<std::int64_t>(type, count);
   }
@@ -220,7 +217,7 @@ class LegacyVtkReader {
     const std::size_t components = count_in(fields);
     const std::size_t tuples = count_in(fields);
     if (lower_case(TextFields(fields.rest()).next()) == "string") {
-      reader_.fail_line("is an array of texts, which is not supported. Save only the mesh.");
+      reader_.refuse_line("is an array of texts, which is not supported. Save only the mesh.");
     }
     const Stored type = type_in(fields);
     if (tuples > 0 && components > std::numeric_limits<std::size_t>::max() / tuples) fail_cut();
@@ -230,10 +227,7 @@ class LegacyVtkReader {
   std::size_t count_in(TextFields& fields) {
     const std::string_view field = fields.next();
     const std::optional<std::int64_t> value = whole_number_in(field);
-    if (!value || *value < 0) {
-      reader_.fail_line("has " + in_quotes(field) + " instead of a number of things" +
-                        export_again);
-    }
+    if (!value || *value < 0) reader_.fail_field(field, "a number of things");
     return static_cast<std::size_t>(*value);
   }
 
@@ -242,9 +236,7 @@ class LegacyVtkReader {
     const auto* const found =
         std::find_if(std::begin(vtk_types), std::end(vtk_types),
                      [&](const NamedType& type) { return type.name == name; });
-    if (found == std::end(vtk_types)) {
-      reader_.fail_line("has " + in_quotes(name) + " instead of a type of numbers" + export_again);
-    }
+    if (found == std::end(vtk_types)) reader_.fail_field(name, "a type of numbers");
     return found->type;
   }
 
@@ -279,8 +271,7 @@ class LegacyVtkReader {
       if (!value || result.size() == count) {
         reader_.fail_line("has " + in_quotes(field) +
                           (value ? " behind the last of " + std::to_string(count) + " numbers"
-                                 : " instead of a number") +
-                          export_again);
+                                 : " instead of a number"));
       }
       result.push_back(*value);
     }
@@ -290,7 +281,7 @@ class LegacyVtkReader {
   void keep_surface_cells() {
     if (cell_types_.empty()) return;
     if (cell_types_.size() != polygons_.ends.size()) {
-      reader_.fail("has different numbers of cells and cell types" + std::string(export_again));
+      reader_.fail("has different numbers of cells and cell types");
     }
     VtkPolygons kept;
     std::int64_t begin = 0;
@@ -306,8 +297,8 @@ class LegacyVtkReader {
       const bool is_face = type == triangle || type == polygon || type == quad;
       if (end < begin || static_cast<std::uint64_t>(end) > polygons_.corners.size() ||
           (type >= triangle && !is_face && type != strip)) {
-        reader_.fail("holds cells of type " + std::to_string(type) +
-                     ", which are not faces. Save a surface as POLYDATA.");
+        reader_.refuse("holds cells of type " + std::to_string(type) +
+                       ", which are not faces. Save a surface as POLYDATA.");
       }
       if (is_face || type == strip) {
         VtkPolygons& to = is_face ? kept : strips_;
@@ -321,7 +312,7 @@ class LegacyVtkReader {
   }
 
   [[noreturn]] void fail_cut() const {
-    reader_.fail("has fewer numbers than it announces. It was cut off" + std::string(export_again));
+    reader_.fail("has fewer numbers than it announces. It was cut off");
   }
 
   ByteReader& reader_;

@@ -38,10 +38,6 @@ namespace {
 
 using LibraryPoint = CGAL::Simple_cartesian<double>::Point_3;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
-  throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
-}
-
 /// Collects bytes before they are written, because a stream takes ten times as long per vertex.
 class Bytes {
  public:
@@ -379,13 +375,15 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates
     const std::size_t lost = fallen_together(mesh.points);
     const double step = single_precision_step(mesh);
     if (lost > 0 || step > coarse_step) {
-      fail(path,
-           "cannot store this mesh: binary STL keeps seven digits of a coordinate, which are "
-           "steps of " +
-               format_percent(step) + " of the mean edge" +
-               (lost > 0 ? ", so that " + std::to_string(lost) + " vertices coincide with others"
-                         : "") +
-               ". Write PLY, OBJ or OFF, or move the mesh to the origin first.");
+      throw Error(
+          ErrorCode::InputOutput,
+          "\"" + path +
+              "\" cannot store this mesh: binary STL keeps seven digits of a coordinate, which are "
+              "steps of " +
+              format_percent(step) + " of the mean edge" +
+              (lost > 0 ? ", so that " + std::to_string(lost) + " vertices coincide with others"
+                        : "") +
+              ". Write PLY, OBJ or OFF, or move the mesh to the origin first.");
     }
   }
   write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });

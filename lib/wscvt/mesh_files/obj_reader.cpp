@@ -60,16 +60,14 @@ class ObjReader {
         add_to_texture(keyword, fields);
       }
     }
-    if (mesh_.points.empty()) {
-      reader_.fail("holds no vertex (a line that begins with \"v\")" + std::string(export_again));
-    }
+    if (mesh_.points.empty()) reader_.fail("holds no vertex (a line that begins with \"v\")");
     if (largest_index_ >= static_cast<std::int64_t>(mesh_.points.size())) {
       reader_.fail("line " + std::to_string(largest_index_line_) + " names vertex " +
                    std::to_string(largest_index_ + 1) + ", but the file holds " +
-                   std::to_string(mesh_.points.size()) + export_again);
+                   std::to_string(mesh_.points.size()));
     }
     if (has_faces_ && mesh_.triangles.empty()) {
-      reader_.fail("has faces, but none of them has three corners" + std::string(export_again));
+      reader_.fail("has faces, but none of them has three corners");
     }
     finish_attributes();
     for (FaceNames* names : {&objects_, &groups_}) names->append_to(file_.named_faces);
@@ -78,19 +76,13 @@ class ObjReader {
 
  private:
   void add_vertex(TextFields fields) {
-    if (mesh_.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader_.fail("has more vertices than can be numbered. Reduce the scan first.");
-    }
+    reader_.check_count(mesh_.points.size() + 1, "has more vertices");
     Vector3 point;
     for (double& coordinate : point) {
       const std::string_view field = fields.next();
       const std::optional<double> value = number_in(field);
-      if (!value) {
-        reader_.fail_line(
-            field.empty()
-                ? "gives a vertex fewer than three coordinates" + std::string(export_again)
-                : "has " + in_quotes(field) + " instead of a coordinate" + export_again);
-      }
+      if (field.empty()) reader_.fail_line("gives a vertex fewer than three coordinates");
+      if (!value) reader_.fail_field(field, "a coordinate");
       coordinate = *value;
     }
     // A weight or a colour may follow.
@@ -177,15 +169,12 @@ class ObjReader {
       // Vertex, vertex/texture, vertex//normal or vertex/texture/normal.
       const std::string_view vertex = field.substr(0, field.find('/'));
       const std::optional<std::int64_t> number = whole_number_in(vertex);
-      if (!number || *number == 0) {
-        reader_.fail_line("has " + in_quotes(field) +
-                          " instead of a face's vertex, numbered from 1" + export_again);
-      }
+      if (!number || *number == 0) reader_.fail_field(field, "a face's vertex, numbered from 1");
       const auto known = static_cast<std::int64_t>(mesh_.points.size());
       const std::int64_t index = *number > 0 ? *number - 1 : known + *number;
       if (index < 0 || index >= std::numeric_limits<std::int32_t>::max()) {
         reader_.fail_line("names vertex " + std::to_string(*number) + ", but there are " +
-                          std::to_string(known) + " up to it" + export_again);
+                          std::to_string(known) + " up to it");
       }
       // A vertex may follow the faces that use it.
       if (index > largest_index_) {

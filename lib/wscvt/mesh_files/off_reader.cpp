@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,20 +29,18 @@ void check_keyword(ByteReader& reader, std::string_view keyword) {
   const std::string form(keyword.substr(0, keyword.find("OFF")));
   if (keyword.find("OFF") == std::string_view::npos || keyword.substr(form.size()) != "OFF" ||
       form.find_first_not_of("STCN4n") != std::string::npos) {
-    reader.fail("does not begin with the word \"OFF\" and is not an OFF file" +
-                std::string(export_again));
+    reader.fail("does not begin with the word \"OFF\" and is not an OFF file");
   }
   if (form.find_first_of("4n") != std::string::npos) {
-    reader.fail("has coordinates that are not in three dimensions (" + in_quotes(keyword) +
-                "). Export it as plain OFF.");
+    reader.refuse("has coordinates that are not in three dimensions (" + in_quotes(keyword) +
+                  "). Export it as plain OFF.");
   }
 }
 
 std::size_t whole_number(ByteReader& reader, std::string_view field, const std::string& due) {
   const std::optional<std::int64_t> value = whole_number_in(field);
   if (!value || *value < 0) {
-    reader.fail_line((field.empty() ? "lacks " : "has " + in_quotes(field) + " instead of ") + due +
-                     export_again);
+    reader.fail_line((field.empty() ? "lacks " : "has " + in_quotes(field) + " instead of ") + due);
   }
   return static_cast<std::size_t>(*value);
 }
@@ -51,7 +48,7 @@ std::size_t whole_number(ByteReader& reader, std::string_view field, const std::
 [[noreturn]] void fail_cut(ByteReader& reader, const std::string& what, std::size_t number,
                            std::size_t count) {
   reader.fail("ends before " + what + " " + std::to_string(number) + " of " +
-              std::to_string(count) + ". It was cut off" + export_again);
+              std::to_string(count) + ". It was cut off");
 }
 
 }  // namespace
@@ -62,7 +59,7 @@ void read_off(ByteReader& reader, MeshFile& file) {
   check_keyword(reader, header.next());
   std::string_view field = header.next();
   if (field == "BINARY") {
-    reader.fail("is a binary OFF file, which is not supported. Export it as text, or as PLY.");
+    reader.refuse("is a binary OFF file, which is not supported. Export it as text, or as PLY.");
   }
   if (field.empty()) {  // the counts may be beside the keyword or below it
     line = next_line(reader);
@@ -71,16 +68,14 @@ void read_off(ByteReader& reader, MeshFile& file) {
   }
   const std::size_t vertices = whole_number(reader, field, "the number of vertices");
   const std::size_t faces = whole_number(reader, header.next(), "the number of faces");
-  if (vertices > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    reader.fail("declares more vertices than can be numbered. Reduce the scan first.");
-  }
+  reader.check_count(vertices, "declares more vertices");
   // The shortest vertex is "0 0 0" and a line break, the shortest face "0" and a line break. The
   // last line needs no line break. Refuses a header that declares more than fits.
   const std::uintmax_t left = reader.remaining() + 1;
   if (vertices > left / 6 || faces > (left - 6 * vertices) / 2) {
     reader.fail("declares " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
                 " faces, but only " + std::to_string(reader.remaining()) +
-                " bytes are left for them. It was cut off" + export_again);
+                " bytes are left for them. It was cut off");
   }
 
   IndexedMesh& mesh = file.mesh;
@@ -95,7 +90,7 @@ void read_off(ByteReader& reader, MeshFile& file) {
       if (!value) {
         reader.fail_line("(vertex " + std::to_string(i) + ") " +
                          (field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
-                         " a coordinate" + export_again);
+                         " a coordinate");
       }
       coordinate = *value;
     }
@@ -110,21 +105,20 @@ void read_off(ByteReader& reader, MeshFile& file) {
     // A corner needs a digit and a blank.
     if (count > (fields.rest().size() + 1) / 2) {
       reader.fail_line("(face " + std::to_string(f) + ") claims " + std::to_string(count) +
-                       " corners, more than it names" + export_again);
+                       " corners, more than it names");
     }
     corners.resize(count);
     for (std::size_t& corner : corners) {
       corner = whole_number(reader, fields.next(), "a face's vertex");
       if (corner >= vertices) {
         reader.fail_line("(face " + std::to_string(f) + ") names vertex " + std::to_string(corner) +
-                         ", but the file holds " + std::to_string(vertices) + ", numbered from 0" +
-                         export_again);
+                         ", but the file holds " + std::to_string(vertices) + ", numbered from 0");
       }
     }
     add_polygon(corners, mesh.points, mesh.triangles);
   }
   if (faces > 0 && mesh.triangles.empty()) {
-    reader.fail("has faces, but none of them has three corners" + std::string(export_again));
+    reader.fail("has faces, but none of them has three corners");
   }
 }
 

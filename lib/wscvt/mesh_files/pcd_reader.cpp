@@ -79,14 +79,14 @@ class PcdReader {
     } else if (form == "binary_compressed") {
       read_columns();
     } else {
-      reader_.fail_line("has data as " + in_quotes(form) +
-                        ". Save it as ascii, binary or binary_compressed.");
+      reader_.refuse_line("has data as " + in_quotes(form) +
+                          ". Save it as ascii, binary or binary_compressed.");
     }
     if (left_out_ > 0) {
       reader_.warn("has " + std::to_string(left_out_) + " of " + std::to_string(points_) +
                    " points without finite coordinates. They were left out.");
     }
-    if (mesh_.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    if (mesh_.points.empty()) reader_.fail("holds no points");
     return std::move(mesh_);
   }
 
@@ -125,19 +125,16 @@ class PcdReader {
         check_fields();
         return form;
       } else if (key != "version" && key != "viewpoint") {
-        reader_.fail_line("has " + in_quotes(key) + " instead of a part of a PCD header" +
-                          export_again);
+        reader_.fail_field(key, "a part of a PCD header");
       }
     }
-    reader_.fail("has no line DATA, which ends the header of a PCD file" +
-                 std::string(export_again));
+    reader_.fail("has no line DATA, which ends the header of a PCD file");
   }
 
   std::size_t number(std::string_view word, std::size_t most) {
     const std::optional<std::int64_t> value = whole_number_in(word);
     if (!value || *value < 0 || static_cast<std::uint64_t>(*value) > most) {
-      reader_.fail_line("has " + in_quotes(word) + " instead of a number from 0 to " +
-                        std::to_string(most) + export_again);
+      reader_.fail_field(word, "a number from 0 to " + std::to_string(most));
     }
     return static_cast<std::size_t>(*value);
   }
@@ -152,7 +149,7 @@ class PcdReader {
       if (!is_known) {
         reader_.fail("has a field " + in_quotes(field.name) + " of type " +
                      in_quotes(std::string(1, field.type)) + " with " + std::to_string(field.size) +
-                     " bytes, which no PCD file has" + export_again);
+                     " bytes, which no PCD file has");
       }
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (field.name != std::string(1, "xyz"[axis]) || field.count != 1) continue;
@@ -165,7 +162,7 @@ class PcdReader {
       record_ += field.count * field.size;
     }
     if (found != std::array<int, 3>{1, 1, 1}) {
-      reader_.fail("has no fields x, y and z, each once" + std::string(export_again));
+      reader_.fail("has no fields x, y and z, each once");
     }
   }
 
@@ -179,7 +176,7 @@ class PcdReader {
 
   [[noreturn]] void fail_cut() {
     reader_.fail("announces " + std::to_string(points_) +
-                 " points but does not have them. It was cut off" + export_again);
+                 " points but does not have them. It was cut off");
   }
 
   void read_text() {
@@ -193,14 +190,12 @@ class PcdReader {
         for (std::size_t axis = 0; axis < 3; ++axis) {
           if (column != columns_[axis]) continue;
           const std::optional<double> value = number_in(word);
-          if (!value) {
-            reader_.fail_line("has " + in_quotes(word) + " instead of a coordinate" + export_again);
-          }
+          if (!value) reader_.fail_field(word, "a coordinate");
           point[static_cast<Eigen::Index>(axis)] = *value;
         }
       }
       if (column <= columns_[0] || column <= columns_[1] || column <= columns_[2]) {
-        reader_.fail_line("ends before the coordinates of a point" + std::string(export_again));
+        reader_.fail_line("ends before the coordinates of a point");
       }
       add(point);
     }
@@ -234,9 +229,7 @@ class PcdReader {
       fail_cut();
     }
     const std::string data = unpacked({bytes, packed}, size);
-    if (data.empty()) {
-      reader_.fail("holds packed points that are damaged" + std::string(export_again));
-    }
+    if (data.empty()) reader_.fail("holds packed points that are damaged");
     for (std::size_t i = 0; i < points_; ++i) {
       Vector3 point;
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -48,8 +48,6 @@ constexpr std::size_t no_list = std::numeric_limits<std::size_t>::max();
 const std::array<MeshTexture::Place, 3> no_corners{MeshTexture::no_place(), MeshTexture::no_place(),
                                                    MeshTexture::no_place()};
 
-constexpr auto most_vertices = static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
-
 std::optional<ScalarType> scalar_type(const std::string& name) {
   static const std::map<std::string, ScalarType> types{
       {"char", ScalarType::Int8},      {"int8", ScalarType::Int8},
@@ -75,8 +73,7 @@ Header read_header(ByteReader& reader) {
   Header header;
   std::optional<std::string_view> line = reader.line();
   if (!line || TextFields(*line).next() != "ply") {
-    reader.fail("does not begin with the line \"ply\" and is not a PLY file" +
-                std::string(export_again));
+    reader.fail("does not begin with the line \"ply\" and is not a PLY file");
   }
   bool format_known = false;
   while ((line = reader.line())) {
@@ -87,7 +84,7 @@ Header read_header(ByteReader& reader) {
     }
     if (keyword.empty() || keyword == "comment" || keyword == "obj_info") continue;
     if (keyword == "end_header") {
-      if (!format_known) reader.fail("has a header without the line \"format\".");
+      if (!format_known) reader.refuse("has a header without the line \"format\".");
       return header;
     }
     if (keyword == "format") {
@@ -98,8 +95,8 @@ Header read_header(ByteReader& reader) {
           {"binary_big_endian", Encoding::BigEndian}};
       const auto found = encodings.find(format);
       if (found == encodings.end()) {
-        reader.fail_line("gives the format " + in_quotes(format) +
-                         ". It must be ascii, binary_little_endian or binary_big_endian.");
+        reader.refuse_line("gives the format " + in_quotes(format) +
+                           ". It must be ascii, binary_little_endian or binary_big_endian.");
       }
       header.encoding = found->second;
       format_known = true;
@@ -109,15 +106,13 @@ Header read_header(ByteReader& reader) {
       const std::string_view field = fields.next();
       const std::optional<std::int64_t> count = whole_number_in(field);
       if (!count || *count < 0) {
-        reader.fail_line("gives " + in_quotes(field) + " for the number of elements " +
-                         in_quotes(element.name) + ". It must be a whole number from 0.");
+        reader.refuse_line("gives " + in_quotes(field) + " for the number of elements " +
+                           in_quotes(element.name) + ". It must be a whole number from 0.");
       }
       element.count = static_cast<std::uint64_t>(*count);
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
-      if (header.elements.empty()) {
-        reader.fail_line("has a property before the first element" + std::string(export_again));
-      }
+      if (header.elements.empty()) reader.fail_line("has a property before the first element");
       Property property;
       std::string type = lower_case(fields.next());
       if (type == "list") {
@@ -125,8 +120,8 @@ Header read_header(ByteReader& reader) {
         const std::string count_type = lower_case(fields.next());
         const std::optional<ScalarType> known = scalar_type(count_type);
         if (!known || *known == ScalarType::Float32 || *known == ScalarType::Float64) {
-          reader.fail_line("counts a list in the type " + in_quotes(count_type) +
-                           ". It must be a type of whole numbers.");
+          reader.refuse_line("counts a list in the type " + in_quotes(count_type) +
+                             ". It must be a type of whole numbers.");
         }
         property.count_type = *known;
         type = lower_case(fields.next());
@@ -134,17 +129,17 @@ Header read_header(ByteReader& reader) {
       const std::optional<ScalarType> known = scalar_type(type);
       if (!known) {
         reader.fail_line("has a property of the type " + in_quotes(type) +
-                         ", which PLY does not know" + export_again);
+                         ", which PLY does not know");
       }
       property.type = *known;
       property.name = lower_case(fields.next());
       header.elements.back().properties.push_back(std::move(property));
     } else {
       reader.fail_line("of the header begins with " + in_quotes(keyword) +
-                       ", which is not a keyword of PLY" + export_again);
+                       ", which is not a keyword of PLY");
     }
   }
-  reader.fail("has a header without the line \"end_header\"" + std::string(export_again));
+  reader.fail("has a header without the line \"end_header\"");
 }
 
 /// Returns the index of the first property that fits, or the number of properties.
@@ -201,17 +196,13 @@ class Body {
     const Element* vertices = nullptr;
     for (const Element& element : header_.elements) {
       if (element.name != "vertex") continue;
-      if (vertices != nullptr) reader_.fail("declares the element \"vertex\" twice.");
+      if (vertices != nullptr) reader_.refuse("declares the element \"vertex\" twice.");
       vertices = &element;
     }
-    if (vertices == nullptr) {
-      reader_.fail("declares no element \"vertex\"" + std::string(export_again));
-    }
+    if (vertices == nullptr) reader_.fail("declares no element \"vertex\"");
     vertices_ = vertices->count;
-    if (vertices_ > most_vertices) {
-      reader_.fail("declares " + std::to_string(vertices_) +
-                   " vertices, more than can be numbered. Reduce the scan first.");
-    }
+    const std::string declared = "declares " + std::to_string(vertices_) + " vertices, more";
+    reader_.check_count(vertices_, declared.c_str());
     bool has_faces = false;
     for (const Element& element : header_.elements) {
       check_size(element);
@@ -228,8 +219,7 @@ class Body {
       }
     }
     if (has_faces && mesh_.triangles.empty()) {
-      reader_.fail("declares faces, but none of them has three corners" +
-                   std::string(export_again));
+      reader_.fail("declares faces, but none of them has three corners");
     }
     if (!header_.pictures.empty()) finish_texture();
     return std::move(mesh_);
@@ -240,14 +230,17 @@ class Body {
 
   [[noreturn]] void fail_cut(const Element& element, std::uint64_t record) const {
     reader_.fail("ends within " + element.name + " " + std::to_string(record) + ", but declares " +
-                 std::to_string(element.count) + " of them. It was cut off" + export_again);
+                 std::to_string(element.count) + " of them. It was cut off");
+  }
+
+  static std::string named(const Element& element, std::uint64_t record) {
+    return "(" + element.name + " " + std::to_string(record) + ") ";
   }
 
   [[noreturn]] void fail_record(const Element& element, std::uint64_t record,
                                 const std::string& what) const {
-    const std::string named = "(" + element.name + " " + std::to_string(record) + ") " + what;
-    if (is_text()) reader_.fail_line(named);
-    reader_.fail(named);
+    if (is_text()) reader_.fail_line(named(element, record) + what);
+    reader_.fail(named(element, record) + what);
   }
 
   /// Refuses a header that declares more than the file can contain.
@@ -262,7 +255,7 @@ class Body {
     if (element.count > (reader_.remaining() + 1) / least) {
       reader_.fail("declares " + std::to_string(element.count) + " elements \"" + element.name +
                    "\", but only " + std::to_string(reader_.remaining()) +
-                   " bytes are left for them. It was cut off" + export_again);
+                   " bytes are left for them. It was cut off");
     }
   }
 
@@ -274,8 +267,7 @@ class Body {
         return !property.is_list && property.name.size() == 1 && property.name[0] == name;
       });
       if (columns[k] == element.properties.size()) {
-        reader_.fail(std::string("declares vertices without the property \"") + name + "\"" +
-                     export_again);
+        reader_.fail(std::string("declares vertices without the property \"") + name + "\"");
       }
     }
     mesh_.points.reserve(static_cast<std::size_t>(element.count));
@@ -362,7 +354,7 @@ class Body {
     });
     if (list == element.properties.size()) {
       reader_.fail("declares elements \"" + element.name +
-                   "\" without the list \"vertex_indices\"" + export_again);
+                   "\" without the list \"vertex_indices\"");
     }
     if (!strips) attributes_.of_faces = begin_attributes(element);
     places_list_ =
@@ -411,7 +403,7 @@ class Body {
                                   : "beyond all";
     fail_record(element, record,
                 "names vertex " + shown + ", but the file holds " + std::to_string(vertices_) +
-                    ", numbered from 0" + export_again);
+                    ", numbered from 0");
   }
 
   /// Skips the records of an element that is not needed.
@@ -483,10 +475,11 @@ class Body {
       const std::string_view field = fields.next();
       const std::optional<double> value = number_in(field);
       if (value) return *value;
-      fail_record(element, record,
-                  field.empty() ? "holds fewer numbers than the header declares for one" +
-                                      std::string(export_again)
-                                : "has " + in_quotes(field) + " instead of a number.");
+      if (field.empty()) {
+        fail_record(element, record, "holds fewer numbers than the header declares for one");
+      }
+      reader_.refuse_line(named(element, record) + "has " + in_quotes(field) +
+                          " instead of a number.");
     };
     scalars_.resize(element.properties.size());
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -495,9 +488,9 @@ class Body {
       const std::uint64_t count = list_count(element, record, scalars_[k]);
       // An item needs a digit and a blank.
       if (count > (fields.rest().size() + 1) / 2) {
-        fail_record(element, record,
-                    "has a list of " + std::to_string(count) +
-                        " items, more than there is left to read" + export_again);
+        fail_record(
+            element, record,
+            "has a list of " + std::to_string(count) + " items, more than there is left to read");
       }
       std::vector<double>* const read = k == wanted_list    ? &items_
                                         : k == places_list_ ? &places_
@@ -509,18 +502,14 @@ class Body {
       }
     }
     if (!fields.next().empty()) {
-      fail_record(
-          element, record,
-          "holds more numbers than the header declares for one" + std::string(export_again));
+      fail_record(element, record, "holds more numbers than the header declares for one");
     }
   }
 
   std::uint64_t list_count(const Element& element, std::uint64_t record, double count) const {
     if (!(count >= 0.0 && count < 4294967296.0) ||
         count != static_cast<double>(static_cast<std::uint64_t>(count))) {
-      fail_record(
-          element, record,
-          "has a list whose count is not a whole number from 0" + std::string(export_again));
+      fail_record(element, record, "has a list whose count is not a whole number from 0");
     }
     return static_cast<std::uint64_t>(count);
   }

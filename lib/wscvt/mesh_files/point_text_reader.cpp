@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,12 +40,12 @@ void read_heading(std::string_view line, const ByteReader& reader,
     }
   }
   if (found != std::array<int, 3>{1, 1, 1}) {
-    reader.fail_line(
+    reader.refuse_line(
         "is not a point and does not name the columns x, y and z, each once. Name them, or "
         "give a file with numbers only.");
   }
   const std::string fault = common_unit(units).fault;
-  if (!fault.empty()) reader.fail_line(fault);
+  if (!fault.empty()) reader.refuse_line(fault);
 }
 
 }  // namespace
@@ -69,9 +68,7 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
       continue;
     }
     is_first = false;
-    if (mesh.points.size() == static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-      reader.fail("holds more points than can be numbered. Reduce the scan first.");
-    }
+    reader.check_count(mesh.points.size() + 1, "holds more points");
     const std::optional<double> first = fields.size() > 3 ? number_in(fields[0]) : std::nullopt;
     const auto number = static_cast<double>(mesh.points.size());
     if (first == number || first == number + 1.0) ++counted;
@@ -81,8 +78,7 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
       const std::optional<double> value = number_in(field);
       if (!value) {
         reader.fail_line((field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
-                         std::string(" the coordinate ") + "xyz"[axis] + " of a point" +
-                         export_again);
+                         std::string(" the coordinate ") + "xyz"[axis] + " of a point");
       }
       point[static_cast<Eigen::Index>(axis)] = *value;
     }
@@ -90,11 +86,11 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
   }
   constexpr std::size_t enough = 10;
   if (!has_heading && counted >= enough && counted == mesh.points.size()) {
-    reader.fail(
+    reader.refuse(
         "has the number of each point before it, which would be its x. Write a heading that names "
         "the columns, such as id,x,y,z.");
   }
-  if (mesh.points.empty()) reader.fail("holds no points" + std::string(export_again));
+  if (mesh.points.empty()) reader.fail("holds no points");
 }
 
 }  // namespace wscvt

@@ -2,7 +2,6 @@
 #include "wscvt/mesh_files/reader_parts.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 
@@ -63,15 +62,13 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
                   const ByteReader& reader, IndexedMesh& mesh, std::size_t cell,
                   std::vector<std::size_t>& cells) {
   const std::size_t points = mesh.points.size() - first;
-  if (mesh.points.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    reader.fail("has more points than can be numbered. Reduce the scan first.");
-  }
+  reader.check_count(mesh.points.size(), "has more points");
   std::vector<std::int64_t> corners;
   corners.reserve(polygons.corners.size());
   for (const std::int64_t corner : polygons.corners) {
     if (corner < 0 || static_cast<std::uint64_t>(corner) >= points) {
       reader.fail("has a face that names point " + std::to_string(corner) + ", but holds " +
-                  std::to_string(points) + ", numbered from 0" + export_again);
+                  std::to_string(points) + ", numbered from 0");
     }
     corners.push_back(corner + static_cast<std::int64_t>(first));
   }
@@ -79,7 +76,7 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
   std::vector<std::int64_t> polygon;
   for (const std::int64_t end : polygons.ends) {
     if (end < begin || static_cast<std::uint64_t>(end) > corners.size()) {
-      reader.fail("has faces whose corners do not follow each other" + std::string(export_again));
+      reader.fail("has faces whose corners do not follow each other");
     }
     if (strips) {
       add_strip(corners.data() + begin, static_cast<std::size_t>(end - begin), mesh.triangles);
@@ -89,6 +86,15 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
     }
     cells.resize(mesh.triangles.size(), cell++);
     begin = end;
+  }
+}
+
+void add_values_of_cells(const std::vector<double>& values, std::size_t width,
+                         const std::vector<std::size_t>& cells, std::vector<double>& result) {
+  for (const std::size_t cell : cells) {
+    for (std::size_t k = width * cell; k < width * (cell + 1) && k < values.size(); ++k) {
+      result.push_back(values[k]);
+    }
   }
 }
 

@@ -73,6 +73,10 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
                   const ByteReader& reader, IndexedMesh& mesh, std::size_t cell,
                   std::vector<std::size_t>& cells);
 
+/// Appends the values of cells, `width` for each, as far as there are any.
+void add_values_of_cells(const std::vector<double>& values, std::size_t width,
+                         const std::vector<std::size_t>& cells, std::vector<double>& result);
+
 /// Collects the names of faces while a file is read.
 class FaceNames {
  public:

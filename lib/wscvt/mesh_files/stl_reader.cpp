@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,38 +15,32 @@ namespace {
 
 constexpr std::size_t header_size = 84;
 constexpr std::size_t record_size = 50;
-constexpr auto most_triangles =
-    static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) / 3;
 
-std::int32_t next_index(ByteReader& reader, const IndexedMesh& mesh) {
-  if (mesh.triangles.size() >= most_triangles) {
-    reader.fail("has more triangles than can be numbered. Reduce the scan first.");
-  }
+/// Returns the number of the next triangle's first corner.
+std::int32_t next_index(const ByteReader& reader, const IndexedMesh& mesh) {
+  reader.check_count(mesh.points.size() + 3, "has more triangles");
   return static_cast<std::int32_t>(mesh.points.size());
 }
 
 IndexedMesh read_binary(ByteReader& reader) {
   using boost::endian::order;
   const std::string_view header = reader.peek(header_size);
-  if (header.size() < header_size) {
-    reader.fail("is too short for an STL file" + std::string(export_again));
-  }
+  if (header.size() < header_size) reader.fail("is too short for an STL file");
   const std::size_t triangles = load<std::uint32_t, order::little>(header.data() + 80);
   const std::uintmax_t expected = header_size + std::uintmax_t{record_size} * triangles;
   const std::uintmax_t held = (reader.remaining() - header_size) / record_size;
   if (expected > reader.remaining()) {
     reader.fail("is not text and announces " + std::to_string(triangles) +
                 " triangles, but holds " + std::to_string(held) +
-                ". It is not an STL file or was cut off" + export_again);
+                ". It is not an STL file or was cut off");
   }
   // Some programs leave bytes after the last triangle, a line break or zeros. If there is room for
   // a triangle, the count is wrong.
   if (held > triangles) {
     reader.fail("is not text and announces " + std::to_string(triangles) +
-                " triangles, but holds " + std::to_string(held) + ". It is not an STL file" +
-                export_again);
+                " triangles, but holds " + std::to_string(held) + ". It is not an STL file");
   }
-  if (triangles == 0) reader.fail("holds no triangles" + std::string(export_again));
+  if (triangles == 0) reader.fail("holds no triangles");
   if (reader.remaining() > expected) {
     const std::uintmax_t more = reader.remaining() - expected;
     reader.warn("has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
@@ -61,8 +54,7 @@ IndexedMesh read_binary(ByteReader& reader) {
   for (std::size_t f = 0; f < triangles; ++f) {
     const char* bytes = reader.next(record_size);
     if (bytes == nullptr) {
-      reader.fail("ends within triangle " + std::to_string(f) + " of " + std::to_string(triangles) +
-                  export_again);
+      reader.fail("ends within triangle " + std::to_string(f) + " of " + std::to_string(triangles));
     }
     const std::int32_t first = next_index(reader, mesh);
     for (std::size_t i = 1; i <= 3; ++i) {  // 0 is the normal
@@ -93,7 +85,7 @@ class TextReader {
       }
       fields_ = TextFields("");
     } while (has_more());
-    if (mesh.triangles.empty()) reader_.fail("holds no triangles" + std::string(export_again));
+    if (mesh.triangles.empty()) reader_.fail("holds no triangles");
     return mesh;
   }
 
@@ -147,10 +139,8 @@ class TextReader {
   }
 
   [[noreturn]] void fail(const std::string& word, const std::string& due) {
-    if (word.empty()) {
-      reader_.fail("ends before " + due + ". It was cut off" + export_again);
-    }
-    reader_.fail_line("has " + in_quotes(word) + " instead of " + due + export_again);
+    if (word.empty()) reader_.fail("ends before " + due + ". It was cut off");
+    reader_.fail_field(word, due);
   }
 
   ByteReader& reader_;

@@ -54,7 +54,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   for (std::size_t k = 0; k <= line.size(); ++k) {
     const char c = k < line.size() ? line[k] : '\n';
     if (c == '"') is_quoted = !is_quoted;
-    const bool ends = separator == '\0' ? c == ' ' || (c >= '\t' && c <= '\r') : c == separator;
+    const bool ends = separator == '\0' ? is_blank(c) : c == separator;
     if (k < line.size() && (is_quoted || !ends)) continue;
     const std::string_view field = line.substr(begin, k - begin);
     const std::size_t first = std::min(field.find_first_not_of(" \t\r\""), field.size());

@@ -14,6 +14,8 @@ namespace wscvt {
 
 // Reads the fields of a line of text and their numbers, independent of the locale.
 
+inline bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
 /// The fields of a line, separated by blanks and tabs.
 class TextFields {
  public:
@@ -22,9 +24,9 @@ class TextFields {
   /// Returns the next field; empty at the end.
   std::string_view next() {
     std::size_t begin = 0;
-    while (begin < rest_.size() && is_space(rest_[begin])) ++begin;
+    while (begin < rest_.size() && is_blank(rest_[begin])) ++begin;
     std::size_t end = begin;
-    while (end < rest_.size() && !is_space(rest_[end])) ++end;
+    while (end < rest_.size() && !is_blank(rest_[end])) ++end;
     const std::string_view field = rest_.substr(begin, end - begin);
     rest_.remove_prefix(end);
     return field;
@@ -34,8 +36,6 @@ class TextFields {
   std::string_view rest() const { return rest_; }
 
  private:
-  static bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
   std::string_view rest_;
 };
 

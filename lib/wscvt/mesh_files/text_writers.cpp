@@ -129,18 +129,15 @@ void write_vtu(std::ostream& stream, const IndexedMesh& mesh) {
 }
 
 void write_gmsh(std::ostream& stream, const IndexedMesh& mesh) {
-  Vector3 low = Vector3::Zero();
-  Vector3 high = Vector3::Zero();
-  for (const Vector3& p : mesh.points) {
-    low = &p == mesh.points.data() ? p : Vector3(low.cwiseMin(p));
-    high = &p == mesh.points.data() ? p : Vector3(high.cwiseMax(p));
-  }
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : mesh.points) box.extend(p);
+  if (mesh.points.empty()) box.extend(Vector3::Zero());
   const std::string nodes = std::to_string(mesh.points.size());
   const std::string faces = std::to_string(mesh.triangles.size());
   // One surface, number 1: its box, no physical groups and no curves.
-  stream << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 " << vector_text(low)
-         << " " << vector_text(high) << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 " << nodes
-         << "\n2 1 0 " << nodes << "\n";
+  stream << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 " << vector_text(box.min())
+         << " " << vector_text(box.max()) << " 0 0\n$EndEntities\n$Nodes\n1 " << nodes << " 1 "
+         << nodes << "\n2 1 0 " << nodes << "\n";
   for (std::size_t i = 1; i <= mesh.points.size(); ++i) stream << i << "\n";
   stream << lines_of(mesh.points) << "$EndNodes\n$Elements\n1 " << faces << " 1 " << faces
          << "\n2 1 2 " << faces << "\n";

@@ -53,8 +53,6 @@ bool is_section(const std::string& name) {
   return std::find(std::begin(sections), std::end(sections), name) != std::end(sections);
 }
 
-bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
 /// The bytes of an array, from base64 or unchanged.
 class ArrayBytes {
  public:
@@ -120,10 +118,10 @@ class VtpReader {
   /// Appends the labels of the faces: arrays of one whole number for each.
   IndexedMesh read(std::vector<NamedFaces>& names) {
     read_tags();
-    if (pieces_.empty()) reader_.fail("holds no piece of a mesh" + std::string(export_again));
+    if (pieces_.empty()) reader_.fail("holds no piece of a mesh");
     IndexedMesh mesh;
     for (const Piece& piece : pieces_) add(piece, mesh);
-    if (mesh.points.empty()) reader_.fail("holds no points" + std::string(export_again));
+    if (mesh.points.empty()) reader_.fail("holds no points");
     for (const auto& [name, labels] : labels_) {
       append_labels(labels, mesh.triangles.size(), names);
     }
@@ -131,9 +129,7 @@ class VtpReader {
   }
 
  private:
-  [[noreturn]] void fail_xml() const {
-    reader_.fail("is not the XML of a .vtp file" + std::string(export_again));
-  }
+  [[noreturn]] void fail_xml() const { reader_.fail("is not the XML of a .vtp file"); }
 
   /// Returns the next tag from a byte on; nothing at the end of the text.
   std::optional<Tag> tag_from(std::size_t at) const {
@@ -186,8 +182,8 @@ class VtpReader {
         const std::string kind = value_of(file_, "type");
         is_grid_ = kind == "UnstructuredGrid";
         if (kind != "PolyData" && !is_grid_) {
-          reader_.fail("holds " + in_quotes(kind) +
-                       ", not the polygons of a mesh. Save a surface as PolyData.");
+          reader_.refuse("holds " + in_quotes(kind) +
+                         ", not the polygons of a mesh. Save a surface as PolyData.");
         }
       } else if (!is_vtk) {
         fail_xml();
@@ -211,9 +207,7 @@ class VtpReader {
   std::size_t count_in(const Piece& piece, const std::string& key) const {
     const std::string text = value_of(piece.attributes, key, "0");
     const std::optional<std::int64_t> count = whole_number_in(text);
-    if (!count || *count < 0) {
-      reader_.fail("has " + in_quotes(text) + " as its " + key + export_again);
-    }
+    if (!count || *count < 0) reader_.fail("has " + in_quotes(text) + " as its " + key);
     return static_cast<std::size_t>(*count);
   }
 
@@ -230,12 +224,7 @@ class VtpReader {
       std::vector<double>& labels = labels_[name];
       if (labels.size() != width * before) continue;
       try {
-        const std::vector<double> values = numbers<double>(piece, name);
-        for (const std::size_t cell : cells) {
-          for (std::size_t k = width * cell; k < width * (cell + 1) && k < values.size(); ++k) {
-            labels.push_back(values[k]);
-          }
-        }
+        add_values_of_cells(numbers<double>(piece, name), width, cells, labels);
       } catch (const Error& error) {
         if (error.code() != ErrorCode::InputOutput) throw;  // else not an array of numbers
       }
@@ -249,7 +238,7 @@ class VtpReader {
       const std::vector<double> coordinates = numbers<double>(piece, "Points/");
       if (coordinates.size() / 3 != count || coordinates.size() % 3 != 0) {
         reader_.fail("has " + std::to_string(coordinates.size()) + " coordinates of " +
-                     std::to_string(count) + " points" + export_again);
+                     std::to_string(count) + " points");
       }
       for (std::size_t i = 0; i < count; ++i) {
         mesh.points.emplace_back(coordinates[3 * i], coordinates[3 * i + 1],
@@ -267,7 +256,7 @@ class VtpReader {
                            numbers<std::int64_t>(piece, section + "/offsets")};
       if (polygons.ends.size() != faces) {
         reader_.fail("has ends of " + std::to_string(polygons.ends.size()) + " faces and " +
-                     std::to_string(faces) + " faces" + export_again);
+                     std::to_string(faces) + " faces");
       }
       add_polygons(polygons, strips, first, reader_, mesh, cell, cells);
       cell += faces;
@@ -283,7 +272,7 @@ class VtpReader {
     const std::vector<std::int64_t> types = numbers<std::int64_t>(piece, "Cells/types");
     if (types.size() != ends.size()) {
       reader_.fail("has " + std::to_string(types.size()) + " types of " +
-                   std::to_string(ends.size()) + " cells" + export_again);
+                   std::to_string(ends.size()) + " cells");
     }
     VtkPolygons faces;
     std::vector<std::size_t> of_face;
@@ -302,7 +291,7 @@ class VtpReader {
       begin = ends[k];
     }
     if (faces.ends.empty()) {
-      reader_.fail("holds no triangles or polygons. Save the surface of the grain too.");
+      reader_.refuse("holds no triangles or polygons. Save the surface of the grain too.");
     }
     const std::size_t before = cells.size();
     add_polygons(faces, false, first, reader_, mesh, 0, cells);
@@ -312,9 +301,7 @@ class VtpReader {
   template <class Number>
   std::vector<Number> numbers(const Piece& piece, const std::string& name) const {
     const auto found = piece.arrays.find(name);
-    if (found == piece.arrays.end()) {
-      reader_.fail("has no array " + in_quotes(name) + std::string(export_again));
-    }
+    if (found == piece.arrays.end()) reader_.fail("has no array " + in_quotes(name));
     const Array& array = found->second;
     const std::string format = value_of(array.attributes, "format", "ascii");
     if (format == "ascii") return text_numbers<Number>(array);
@@ -324,7 +311,7 @@ class VtpReader {
           whole_number_in(value_of(array.attributes, "offset", "0"));
       if (appendix_ == 0 || !offset || *offset < 0 ||
           static_cast<std::uint64_t>(*offset) > text_.size() - appendix_) {
-        reader_.fail("has no appended data at an array's offset" + std::string(export_again));
+        reader_.fail("has no appended data at an array's offset");
       }
       return typed_numbers<Number>(
           type,
@@ -341,17 +328,13 @@ class VtpReader {
     std::vector<Number> result;
     for (std::string_view field = fields.next(); !field.empty(); field = fields.next()) {
       const std::optional<Number> value = number_of_type<Number>(field);
-      if (!value) {
-        reader_.fail("has " + in_quotes(field) + " instead of a number" + export_again);
-      }
+      if (!value) reader_.fail("has " + in_quotes(field) + " instead of a number");
       result.push_back(*value);
     }
     return result;
   }
 
-  [[noreturn]] void fail_cut() const {
-    reader_.fail("holds arrays that are cut or damaged" + std::string(export_again));
-  }
+  [[noreturn]] void fail_cut() const { reader_.fail("holds arrays that are cut or damaged"); }
 
   std::uint64_t next_length(ArrayBytes& bytes) const {
     const bool is_long = value_of(file_, "header_type", "UInt32") == "UInt64";
@@ -371,7 +354,7 @@ class VtpReader {
       return *all;
     }
     if (packer != "vtkZLibDataCompressor") {
-      reader_.fail("is packed by " + in_quotes(packer) + ". Save it plain, or by ZLib.");
+      reader_.refuse("is packed by " + in_quotes(packer) + ". Save it plain, or by ZLib.");
     }
     const std::uint64_t blocks = next_length(bytes);
     const std::uint64_t block = next_length(bytes);
@@ -417,8 +400,7 @@ class VtpReader {
     const auto found = types.find(type);
     const bool is_whole = type.find("Int") != std::string::npos;
     if (found == types.end() || (!is_whole && !std::is_same_v<Number, double>)) {
-      reader_.fail("has an array of " + in_quotes(type) + " instead of other numbers" +
-                   export_again);
+      reader_.fail("has an array of " + in_quotes(type) + " instead of other numbers");
     }
     const std::size_t size = size_of(found->second);
     std::vector<Number> result;
