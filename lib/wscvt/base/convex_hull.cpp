@@ -126,23 +126,11 @@ std::vector<Triangle> convex_hull_triangles(const std::vector<Vector3>& points,
 }
 
 IndexedMesh convex_hull(const std::vector<Vector3>& points, const Execution& execution) {
-  IndexedMesh hull;
-  hull.triangles = convex_hull_triangles(points, execution);
+  IndexedMesh hull{points, convex_hull_triangles(points, execution)};
   if (hull.triangles.empty()) {
     refuse("The points lie in one plane, so their convex hull has no volume. Give a solid body.");
   }
-  std::vector<std::int32_t> number(points.size(), -1);
-  for (const Triangle& t : hull.triangles) {
-    for (const std::int32_t v : t) number[v] = 0;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (number[i] < 0) continue;
-    number[i] = static_cast<std::int32_t>(hull.points.size());
-    hull.points.push_back(points[i]);
-  }
-  for (Triangle& t : hull.triangles) {
-    for (std::int32_t& v : t) v = number[v];
-  }
+  drop_unused_points(hull);
   return hull;
 }
 

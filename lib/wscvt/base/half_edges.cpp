@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <utility>
 
 #include "wscvt/base/counting_sort.h"
 
@@ -23,26 +22,24 @@ struct Link {
   }
 };
 
-}  // namespace
+using Links = std::vector<Link>::const_iterator;
 
-// A counting sort by the lower vertex leaves about three half-edges in a bucket, so every triangle
-// is read twice for its links. To look for each opposite among the half-edges that leave its origin
-// takes twice the time.
-HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
-                          const Execution& execution) {
-  const std::size_t count = 3 * triangles.size();
-  const Groups buckets = counting_sort(count, vertices, [&](std::size_t h, const auto& visit) {
-    const Triangle& t = triangles[h / 3];
-    visit(index(std::min(t[h % 3], t[following(h % 3)])));
-  });
-  HalfEdges result;
-  result.opposite.assign(count, -1);
-  result.first.assign(vertices, -1);
-  for (std::size_t h = count; h-- > 0;) {
-    result.first[index(triangles[h / 3][h % 3])] = static_cast<std::int32_t>(h);
-  }
+/// Calls visit(lower vertex, first, last) with the Links of the half-edges on each edge, which are
+/// ascending. Edges of different lower vertices may be visited at the same time.
+///
+/// Most of the time is the sort of all half-edges by their two vertices. A counting sort by the
+/// lower vertex leaves buckets of about three, which are sorted in parallel by the higher vertex.
+/// Without a hash table the order is equal on any machine, and memory is read nearly in order. To
+/// look for each opposite among the half-edges that leave its origin takes twice the time.
+template <class Visit>
+void visit_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
+                 const Execution& execution, const Visit& visit) {
+  const Groups buckets =
+      counting_sort(3 * triangles.size(), vertices, [&](std::size_t h, const auto& visit_group) {
+        const Triangle& t = triangles[h / 3];
+        visit_group(index(std::min(t[h % 3], t[following(h % 3)])));
+      });
   constexpr std::size_t block_size = 16384;
-  // Each half-edge is in one bucket, so no two blocks write to one entry.
   execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
     std::vector<Link> bucket;
     for (std::size_t v = begin; v < end; ++v) {
@@ -53,18 +50,34 @@ HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t ve
         bucket.push_back({std::max(from, to), *h, from <= to});
       }
       std::sort(bucket.begin(), bucket.end());
-      for (auto first = bucket.begin(); first != bucket.end();) {
-        auto last = first;
-        // The highest of each direction; a loop is its own opposite.
-        std::array<std::int32_t, 2> highest = {-1, -1};
-        for (; last != bucket.end() && last->higher == first->higher; ++last) {
-          highest[last->from_lower ? 0 : 1] = last->half_edge;
-        }
-        const bool is_loop = index(first->higher) == v;
-        for (; first != last; ++first) {
-          result.opposite[index(first->half_edge)] = highest[first->from_lower && !is_loop ? 1 : 0];
-        }
+      for (Links first = bucket.begin(); first != bucket.end();) {
+        Links last = first + 1;
+        while (last != bucket.end() && last->higher == first->higher) ++last;
+        visit(v, first, last);
+        first = last;
       }
+    }
+  });
+}
+
+}  // namespace
+
+HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
+                          const Execution& execution) {
+  const std::size_t count = 3 * triangles.size();
+  HalfEdges result;
+  result.opposite.assign(count, -1);
+  result.first.assign(vertices, -1);
+  for (std::size_t h = count; h-- > 0;) {
+    result.first[index(triangles[h / 3][h % 3])] = static_cast<std::int32_t>(h);
+  }
+  visit_edges(triangles, vertices, execution, [&](std::size_t lower, Links first, Links last) {
+    // The highest of each direction; a loop is its own opposite.
+    std::array<std::int32_t, 2> highest = {-1, -1};
+    for (Links at = first; at != last; ++at) highest[at->from_lower ? 0 : 1] = at->half_edge;
+    const bool is_loop = index(first->higher) == lower;
+    for (Links at = first; at != last; ++at) {
+      result.opposite[index(at->half_edge)] = highest[at->from_lower && !is_loop ? 1 : 0];
     }
   });
   return result;
@@ -96,46 +109,32 @@ void flip_edge(std::int32_t half_edge, std::vector<Triangle>& triangles,
   link(t + 2, u + 2);
 }
 
-namespace {
-
-/// Large enough that the start of a block costs little.
-constexpr std::size_t ring_block = 16384;
-
-}  // namespace
+void drop_unused_points(IndexedMesh& mesh) {
+  std::vector<std::int32_t> number(mesh.points.size(), -1);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) number[index(v)] = 0;
+  }
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<std::int32_t>(kept);
+    mesh.points[kept++] = mesh.points[v];
+  }
+  if (kept == mesh.points.size()) return;
+  mesh.points.resize(kept);
+  for (Triangle& t : mesh.triangles) {
+    for (std::int32_t& v : t) v = number[index(v)];
+  }
+}
 
 std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& execution) {
-  const std::size_t vertices = mesh.points.size();
-  const std::vector<Triangle>& triangles = mesh.triangles;
-  // Most of the time is the sort of all half-edges by their two vertices. A counting sort by the
-  // lower vertex leaves buckets of about three, which are sorted in parallel by the higher vertex.
-  // Without a hash table the order is equal on any machine, and memory is read nearly in order.
-  const Groups buckets =
-      counting_sort(3 * triangles.size(), vertices, [&](std::size_t h, const auto& visit) {
-        const Triangle& t = triangles[h / 3];
-        visit(index(std::min(t[h % 3], t[following(h % 3)])));
-      });
-  std::vector<std::int32_t> rings(3 * triangles.size());
-  // Each half-edge is in one bucket, so no two blocks write to one entry.
-  execution.parallel_for(vertices, ring_block, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> bucket;  // higher vertex, half-edge
-    for (std::size_t v = begin; v < end; ++v) {
-      bucket.clear();
-      for (auto h = buckets.begin(v); h != buckets.end(v); ++h) {
-        const Triangle& t = triangles[face_of(*h)];
-        bucket.emplace_back(std::max(t[corner_of(*h)], t[following(corner_of(*h))]), *h);
-      }
-      std::sort(bucket.begin(), bucket.end());
-      for (std::size_t first = 0; first < bucket.size();) {
-        std::size_t last = first;
-        while (last + 1 < bucket.size() && bucket[last + 1].first == bucket[first].first) {
-          rings[index(bucket[last].second)] = bucket[last + 1].second;
-          ++last;
-        }
-        rings[index(bucket[last].second)] = bucket[first].second;
-        first = last + 1;
-      }
-    }
-  });
+  std::vector<std::int32_t> rings(3 * mesh.triangles.size());
+  visit_edges(mesh.triangles, mesh.points.size(), execution,
+              [&](std::size_t /*lower*/, Links first, Links last) {
+                for (Links at = first; at != last; ++at) {
+                  rings[index(at->half_edge)] = (at + 1 == last ? first : at + 1)->half_edge;
+                }
+              });
   return rings;
 }
 

@@ -81,6 +81,9 @@ void visit_outgoing(const std::vector<std::int32_t>& opposite, std::int32_t star
   } while (h != start);
 }
 
+/// Drops the points of no triangle. The others keep their order.
+void drop_unused_points(IndexedMesh& mesh);
+
 /// Returns for every half-edge (see half_edges.h) the next half-edge on its edge, in a ring: itself
 /// on a boundary edge, the opposite half-edge on a manifold edge. If more than two faces meet, it
 /// is the next higher half-edge, and after the last the first. The orientation of the faces does
