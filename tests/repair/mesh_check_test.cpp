@@ -433,8 +433,8 @@ TEST(MeshCheck, NamesTheDistanceThatClosesASeam) {
     ASSERT_TRUE(std::regex_search(sentence, named, std::regex("distance of ([0-9.e-]+[0-9])")))
         << sentence;
     IndexedMesh merged = open;
-    const Weld weld = find_equal_points(merged.points, box_of_faces(merged, Execution(1)),
-                                        std::stod(named[1]), Execution(1));
+    const Weld weld =
+        find_equal_points(merged.points, box_of_faces(merged), std::stod(named[1]), Execution(1));
     for (Triangle& t : merged.triangles) {
       for (std::int32_t& v : t) v = weld.first[static_cast<std::size_t>(v)];
     }

@@ -34,11 +34,8 @@ TEST(Weld, FindsWhatABruteSearchFinds) {
       points.emplace_back(0, 0, 0);
       points.emplace_back(-0.0, 0, -0.0);
       points.emplace_back(1, 1, 1);
-      Box box{points[0], points[0]};
-      for (const Vector3& p : points) {
-        box.low = box.low.cwiseMin(p);
-        box.high = box.high.cwiseMax(p);
-      }
+      Box box;
+      for (const Vector3& p : points) box.extend(p);
       const Weld weld = find_equal_points(points, box, tolerance, Execution(2));
       std::size_t welded = 0;
       std::vector<std::int32_t> kept;
@@ -86,12 +83,13 @@ TEST(Weld, BoxHoldsEveryCornerOfEveryFaceAndNothingElse) {
           Vector3& point = mesh.points[3 * face + corner];
           const Vector3 kept = point;
           point[axis] = place;
-          const Box box = box_of_faces(mesh, Execution(2));
-          EXPECT_EQ(place < 0.0 ? box.low[axis] : box.high[axis], place) << face << " " << corner;
+          const Box box = box_of_faces(mesh);
+          EXPECT_EQ(place < 0.0 ? box.min()[axis] : box.max()[axis], place)
+              << face << " " << corner;
           for (Eigen::Index other = 0; other < 3; ++other) {
             if (other == axis) continue;
-            EXPECT_GE(box.low[other], 0.0);
-            EXPECT_LE(box.high[other], 1.0);
+            EXPECT_GE(box.min()[other], 0.0);
+            EXPECT_LE(box.max()[other], 1.0);
           }
           point = kept;
         }
@@ -103,7 +101,8 @@ TEST(Weld, BoxHoldsEveryCornerOfEveryFaceAndNothingElse) {
 TEST(Weld, LeavesPointsOutsideOfTheBoxAlone) {
   const std::vector<Vector3> points = {
       {0, 0, 0}, {1e300, 0, 0}, {1e300, 0, 0}, {1, 1, 1}, {0, 0, 0}};
-  const Weld weld = find_equal_points(points, {{0, 0, 0}, {1, 1, 1}}, 1e-12, Execution(1));
+  const Weld weld =
+      find_equal_points(points, {Vector3(0, 0, 0), Vector3(1, 1, 1)}, 1e-12, Execution(1));
   EXPECT_EQ(weld.first, (std::vector<std::int32_t>{0, 1, 2, 3, 0}));
 }
 

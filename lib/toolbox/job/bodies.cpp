@@ -114,9 +114,9 @@ class IslandFinder {
   IslandFinder(const IndexedMesh& mesh, const std::vector<NamedFaces>& names,
                const Execution& execution)
       : mesh_(mesh), names_(names), execution_(execution), extractor_(mesh) {
-    const Box box = box_of_faces(mesh, execution);
-    check_scan_size(box.high - box.low);
-    diagonal_ = (box.high - box.low).norm();
+    const Box box = box_of_faces(mesh);
+    check_scan_size(box.sizes());
+    diagonal_ = box.sizes().norm();
   }
 
   std::vector<Island> run() {
@@ -245,7 +245,7 @@ class IslandFinder {
   Island island_of(const FaceList& faces) {
     Island island{extractor_.extract(faces), faces};
     const double tolerance = MeshCheckOptions().weld_tolerance * diagonal_;
-    const Box box = box_of_faces(island.mesh, execution_);
+    const Box box = box_of_faces(island.mesh);
     merge(find_equal_points(island.mesh.points, box, tolerance, execution_).first, island);
     return island;
   }
@@ -347,7 +347,7 @@ class PartFinder {
   }
 
   void add_part(Part part) {
-    part.box = box_of_faces(part.mesh, execution_);
+    part.box = box_of_faces(part.mesh);
     part.piece = pieces;
     part.side_name = side_name_;
     parts.push_back(std::move(part));
@@ -462,11 +462,6 @@ class PartFinder {
   std::int32_t side_name_ = -1;
 };
 
-bool holds(const Box& outer, const Box& inner) {
-  return (outer.low.array() <= inner.low.array()).all() &&
-         (outer.high.array() >= inner.high.array()).all();
-}
-
 /// Returns a hash of the positions of a face's corners, in any order.
 std::uint64_t place_of(const IndexedMesh& mesh, const Triangle& t) {
   std::array<std::uint64_t, 3> corners{};
@@ -504,7 +499,7 @@ std::size_t drop_copies(PartFinder& found) {
     if (a.volume == 0.0 || a.mesh.triangles.size() != b.mesh.triangles.size() ||
         a.was_inward != b.was_inward || a.is_void || b.is_void || a.piece == b.piece ||
         a.side_name != b.side_name ||
-        !((a.box.low - b.box.low).norm() <= 1e-9 * (a.box.high - a.box.low).norm())) {
+        !((a.box.min() - b.box.min()).norm() <= 1e-9 * a.box.sizes().norm())) {
       return false;
     }
     const std::unordered_set<std::uint64_t> places = places_of(a.mesh);
@@ -572,7 +567,7 @@ void count_inside(const IndexedMesh& mesh, const std::vector<Vector3>& points,
 BoxGrid grid_of(const std::vector<Part>& parts) {
   std::vector<BoxGrid::Box> boxes;
   boxes.reserve(parts.size());
-  for (const Part& part : parts) boxes.emplace_back(part.box.low, part.box.high);
+  for (const Part& part : parts) boxes.push_back(part.box);
   return BoxGrid(std::move(boxes));
 }
 
@@ -589,11 +584,11 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
     std::unordered_set<std::uint64_t> places;
-    grid.find({holder.box.low, holder.box.high}, near);
+    grid.find(holder.box, near);
     for (const std::int32_t number : near) {
       const std::size_t inner = index(number);
       const Part& part = parts[inner];
-      if (part.piece == holder.piece || part.volume == 0.0 || !holds(holder.box, part.box) ||
+      if (part.piece == holder.piece || part.volume == 0.0 || !holder.box.contains(part.box) ||
           part.side_name != holder.side_name) {
         continue;
       }
@@ -643,7 +638,7 @@ void fill_pores(std::vector<Part>& parts, const Execution& execution) {
     if (pore.volume == 0.0 || !pore.was_inward || pore.holders.empty()) continue;
     std::vector<AskedPart> asked;
     std::vector<Vector3> points;
-    grid.find({pore.box.low, pore.box.high}, near);
+    grid.find(pore.box, near);
     for (const std::int32_t number : near) {
       const std::size_t q = index(number);
       const Part& part = parts[q];
@@ -790,8 +785,7 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
   std::vector<BoxGrid::Box> boxes;
   std::vector<std::vector<Vector3>> depths(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const Box box = box_of_faces(bodies[k].mesh, execution);
-    boxes.emplace_back(box.low, box.high);
+    boxes.push_back(box_of_faces(bodies[k].mesh));
     if (!bodies[k].is_closed()) continue;
     std::vector<Vector3> points;
     append_depths(bodies[k].mesh, points);
@@ -832,14 +826,14 @@ std::string overlap_warning(const std::vector<MeshBody>& bodies, const Execution
 }
 
 /// Drops faces without a finite position, and their names.
-void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names, const Execution& execution) {
+void keep_usable(IndexedMesh& mesh, std::vector<NamedFaces>& names) {
   std::vector<char> kept;
   for (const Triangle& t : mesh.triangles) {
     kept.push_back(std::all_of(t.begin(), t.end(), [&](std::int32_t v) {
       return v >= 0 && index(v) < mesh.points.size() && mesh.points[v].allFinite();
     }));
   }
-  keep_usable_faces(mesh, execution);
+  keep_usable_faces(mesh);
   // Bodies of other sizes never lie as far. All others would be welded into one place.
   constexpr double farthest = 1e6;
   refuse_stray_vertex(find_stray_vertex(mesh), farthest);
@@ -868,7 +862,7 @@ NamedFaces take_sides(std::vector<NamedFaces>& names, std::size_t faces) {
 
 MeshBodies split_bodies(IndexedMesh mesh, std::vector<NamedFaces> names,
                         const Execution& execution) {
-  keep_usable(mesh, names, execution);
+  keep_usable(mesh, names);
   const NamedFaces sides = take_sides(names, mesh.triangles.size());
   IslandFinder finder(mesh, names, execution);
   PartFinder found(execution);

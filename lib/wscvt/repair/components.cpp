@@ -2,14 +2,14 @@
 #include "wscvt/repair/components.h"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/sets.h"
 
 namespace wscvt {
 
@@ -39,27 +39,15 @@ bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
 /// Finds the parts of a mesh with only such edges, as scanners write it. No face needs turning, so
 /// faces are joined in the order of the file. A walk waits for memory at every step: for a million
 /// vertices, this function takes two fifths of its time.
-void join_faces(const std::vector<Triangle>& triangles, const std::vector<std::int32_t>& rings,
-                Components& result) {
-  std::vector<std::int32_t> parent(triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  std::vector<unsigned char> rank(triangles.size(), 0);
-  boost::disjoint_sets<unsigned char*, std::int32_t*> parts(rank.data(), parent.data());
+void join_faces(const std::vector<std::int32_t>& rings, Components& result) {
+  Sets parts(rings.size() / 3);
   for (std::size_t h = 0; h < rings.size(); ++h) {
-    if (static_cast<std::int32_t>(h) < rings[h]) {
-      parts.union_set(static_cast<std::int32_t>(h / 3),
-                      static_cast<std::int32_t>(face_of(rings[h])));
-    }
+    if (h < index(rings[h])) parts.unite(h / 3, face_of(rings[h]));
   }
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    const std::size_t root = index(parts.find_set(static_cast<std::int32_t>(f)));
-    if (result.of_face[root] < 0) {
-      result.of_face[root] = static_cast<std::int32_t>(result.list.size());
-      result.list.emplace_back();
-    }
-    result.of_face[f] = result.of_face[root];
-    ++result.list[index(result.of_face[f])].faces;
-  }
+  std::size_t count = 0;
+  std::tie(result.of_face, count) = parts.numbers();
+  result.list.resize(count);
+  for (const std::int32_t part : result.of_face) ++result.list[index(part)].faces;
 }
 
 /// Finds the parts of any mesh.
@@ -114,7 +102,7 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
   result.of_face.assign(triangles.size(), -1);
   result.turned.assign(triangles.size(), 0);
   if (is_closed_and_oriented(triangles, rings, execution)) {
-    join_faces(triangles, rings, result);
+    join_faces(rings, result);
   } else {
     walk_faces(triangles, rings, result);
   }
@@ -146,8 +134,6 @@ void keep_faces(IndexedMesh& mesh, const Components& components, std::size_t kep
 std::size_t keep_component(IndexedMesh& mesh, const Components& components, std::size_t kept) {
   std::size_t turned = 0;
   const bool inside_out = components.list[kept].volume < 0.0;
-  // For every vertex its new index; -1 if no remaining face uses it.
-  std::vector<std::int32_t> number(mesh.points.size(), -1);
   std::size_t faces = 0;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     if (index(components.of_face[f]) != kept) continue;
@@ -156,21 +142,10 @@ std::size_t keep_component(IndexedMesh& mesh, const Components& components, std:
       std::swap(t[1], t[2]);
       ++turned;
     }
-    for (const std::int32_t v : t) number[index(v)] = 0;
     mesh.triangles[faces++] = t;
   }
   mesh.triangles.resize(faces);
-  std::size_t vertices = 0;
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (number[v] < 0) continue;
-    number[v] = static_cast<std::int32_t>(vertices);
-    mesh.points[vertices++] = mesh.points[v];
-  }
-  if (vertices == mesh.points.size()) return turned;
-  mesh.points.resize(vertices);
-  for (Triangle& t : mesh.triangles) {
-    for (std::int32_t& v : t) v = number[index(v)];
-  }
+  drop_unused_points(mesh);
   return turned;
 }
 

@@ -52,14 +52,12 @@ bool has_decimals(double value, double power_of_ten) {
 
 void check_scan_size(const std::vector<Vector3>& points) {
   if (points.empty()) return;
-  Vector3 low = points.front();
-  Vector3 high = points.front();
+  Eigen::AlignedBox3d box;
   for (const Vector3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
     if (!p.allFinite()) return;
+    box.extend(p);
   }
-  check_scan_size(high - low);
+  check_scan_size(box.sizes());
 }
 
 void check_scan_size(const Vector3& extents) {
@@ -126,26 +124,7 @@ std::string precision_warning(const IndexedMesh& mesh) {
 
 namespace {
 
-/// Large enough that the start of a block costs little.
-constexpr std::size_t usable_block = 16384;
-
-/// Returns the first index in [0, count) for which `wrong` is true, or count. The first, so that
-/// the message does not depend on the number of threads.
-template <class Predicate>
-std::size_t first_wrong(std::size_t count, const Execution& execution, const Predicate& wrong) {
-  std::vector<std::size_t> first((count + usable_block - 1) / usable_block, count);
-  execution.parallel_for(count, usable_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (wrong(i)) {
-        first[begin / usable_block] = i;
-        break;
-      }
-    }
-  });
-  return first.empty() ? count : *std::min_element(first.begin(), first.end());
-}
-
-void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
+void refuse_unusable(const IndexedMesh& mesh) {
   const std::size_t vertices = mesh.points.size();
   const std::size_t faces = mesh.triangles.size();
   if (vertices == 0) refuse("The mesh is empty: it has no vertices. Load the scan of a grain.");
@@ -160,26 +139,21 @@ void refuse_unusable(const IndexedMesh& mesh, const Execution& execution) {
            " faces, more than the " + std::to_string(limit) +
            " that can be numbered. Reduce the scan first.");
   }
-  const std::size_t bad_face = first_wrong(faces, execution, [&](std::size_t f) {
+  for (std::size_t f = 0; f < faces; ++f) {
     const Triangle& t = mesh.triangles[f];
-    return std::any_of(t.begin(), t.end(), [&](std::int32_t v) {
-      return v < 0 || static_cast<std::size_t>(v) >= vertices;
-    });
-  });
-  if (bad_face < faces) {
-    const Triangle& t = mesh.triangles[bad_face];
-    refuse("Face " + std::to_string(bad_face) + " names the vertices " + std::to_string(t[0]) +
-           ", " + std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
+    const auto is_wrong = [&](std::int32_t v) { return v < 0 || index(v) >= vertices; };
+    if (std::none_of(t.begin(), t.end(), is_wrong)) continue;
+    refuse("Face " + std::to_string(f) + " names the vertices " + std::to_string(t[0]) + ", " +
+           std::to_string(t[1]) + " and " + std::to_string(t[2]) + ", but the mesh has " +
            std::to_string(vertices) + ". The file or the program that made it is wrong.");
   }
 }
 
 /// Drops the faces with a corner that is not finite.
-std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
-  const std::size_t vertices = mesh.points.size();
-  const std::size_t first =
-      first_wrong(vertices, execution, [&](std::size_t i) { return !mesh.points[i].allFinite(); });
-  if (first == vertices) return 0;
+std::size_t drop_lost_faces(IndexedMesh& mesh) {
+  const auto first = std::find_if(mesh.points.begin(), mesh.points.end(),
+                                  [](const Vector3& p) { return !p.allFinite(); });
+  if (first == mesh.points.end()) return 0;
   const auto lost = [&](const Triangle& t) {
     return std::any_of(t.begin(), t.end(),
                        [&](std::int32_t v) { return !mesh.points[index(v)].allFinite(); });
@@ -188,22 +162,23 @@ std::size_t drop_lost_faces(IndexedMesh& mesh, const Execution& execution) {
   mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(), lost),
                        mesh.triangles.end());
   if (mesh.triangles.empty()) {
-    const Vector3& p = mesh.points[first];
+    const Vector3& p = *first;
     const auto coordinate = [](double value) {
       return std::isnan(value) ? "nan" : format_number(value);
     };
     refuse("All faces of the mesh have a corner that is not at a finite position, e.g. vertex " +
-           std::to_string(first) + " at (" + coordinate(p.x()) + ", " + coordinate(p.y()) + ", " +
-           coordinate(p.z()) + "). The file or the program that made it is wrong.");
+           std::to_string(first - mesh.points.begin()) + " at (" + coordinate(p.x()) + ", " +
+           coordinate(p.y()) + ", " + coordinate(p.z()) +
+           "). The file or the program that made it is wrong.");
   }
   return faces - mesh.triangles.size();
 }
 
 }  // namespace
 
-std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution) {
-  refuse_unusable(mesh, execution);
-  return drop_lost_faces(mesh, execution);
+std::size_t keep_usable_faces(IndexedMesh& mesh) {
+  refuse_unusable(mesh);
+  return drop_lost_faces(mesh);
 }
 
 std::vector<Vector3> different_points(std::vector<Vector3> points, const Execution& execution) {

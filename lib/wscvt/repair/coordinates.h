@@ -36,7 +36,7 @@ std::string single_precision_warning(const IndexedMesh& mesh, const std::string&
 /// check indices and corners: CGAL's trees of boxes do not terminate if a coordinate is NaN. Throws
 /// Error(InvalidInput) if the mesh has no vertices or no faces, more than can be numbered, an index
 /// out of range, or no usable face.
-std::size_t keep_usable_faces(IndexedMesh& mesh, const Execution& execution);
+std::size_t keep_usable_faces(IndexedMesh& mesh);
 
 /// Returns the points in ascending order, each once. Throws Error(InvalidInput) for fewer than 4
 /// different points, coordinates that are not finite, or an extent not between 1e-60 and 1e60;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -15,42 +14,12 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/repair/sets.h"
+#include "wscvt/repair/weld.h"
 
 namespace wscvt {
 
 namespace {
-
-/// Sets that can be united.
-class Sets {
- public:
-  explicit Sets(std::size_t count)
-      : parent_(count), rank_(count, 0), sets_(rank_.data(), parent_.data()) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  void unite(std::size_t a, std::size_t b) {
-    sets_.union_set(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
-  }
-
-  /// Returns the number of the set of each item, in the order of their first items, and the number
-  /// of sets.
-  std::pair<std::vector<std::int32_t>, std::size_t> numbers() {
-    std::vector<std::int32_t> number(parent_.size(), -1);
-    std::vector<std::int32_t> of_root(parent_.size(), -1);
-    std::int32_t count = 0;
-    for (std::size_t i = 0; i < parent_.size(); ++i) {
-      std::int32_t& known = of_root[index(sets_.find_set(static_cast<std::int32_t>(i)))];
-      if (known < 0) known = count++;
-      number[i] = known;
-    }
-    return {std::move(number), static_cast<std::size_t>(count)};
-  }
-
- private:
-  std::vector<std::int32_t> parent_;
-  std::vector<unsigned char> rank_;
-  boost::disjoint_sets<unsigned char*, std::int32_t*> sets_;
-};
 
 /// Cuts squares that two surfaces share along one diagonal: programs cut the two copies of a wall's
 /// square from different corners on.
@@ -151,16 +120,9 @@ class CellFinder {
     once.points.resize(mesh.points.size());
     once.triangles = cells_.faces;
     rings_ = edge_rings(once, execution);
-    Vector3 low = points_[index(cells_.faces[0][0])];
-    Vector3 high = low;
-    for (const Triangle& t : cells_.faces) {
-      for (const std::int32_t v : t) {
-        low = low.cwiseMin(points_[index(v)]);
-        high = high.cwiseMax(points_[index(v)]);
-      }
-    }
-    rounding_ = 1e-11 * (high - low).norm();
-    is_oriented_ = find_orientation(low);
+    const Box box = box_of_faces(mesh);
+    rounding_ = 1e-11 * box.sizes().norm();
+    is_oriented_ = find_orientation(box.min());
   }
 
   /// `fold`: see are_bodies. `pairs_all`: also where no faces lie on each other.

@@ -193,44 +193,31 @@ void refuse_far_vertex(const IndexedMesh& mesh, MeshCheckReport& report) {
 /// For a million vertices they take a tenth of a second.
 class RingedMesh {
  public:
-  RingedMesh(IndexedMesh mesh, const Execution& execution)
-      : mesh_(std::move(mesh)), execution_(execution) {}
+  RingedMesh(IndexedMesh given, const Execution& execution)
+      : mesh(std::move(given)), execution_(execution) {}
 
-  const IndexedMesh& mesh() const { return mesh_; }
   /// As edge_rings returns them.
   const std::vector<std::int32_t>& rings() {
-    if (rings_.empty()) rings_ = edge_rings(mesh_, execution_);
+    if (rings_.empty()) rings_ = edge_rings(mesh, execution_);
     return rings_;
   }
 
-  /// Returns the mesh for a change that leaves all faces in their places; only names of vertices
-  /// may change.
-  IndexedMesh& with_same_faces() { return mesh_; }
-  /// Frees the rings.
-  IndexedMesh released() {
-    rings_ = {};
-    return std::move(mesh_);
-  }
-  /// Calls change(mesh), which returns whether any face was dropped, added or turned.
-  template <class Change>
-  void change_faces(const Change& change) {
-    if (change(mesh_)) rings_ = {};
-  }
+  /// Must follow a change that drops, adds or turns faces. Other names of vertices are no change.
+  void forget_rings() { rings_ = {}; }
+
+  IndexedMesh mesh;
 
  private:
-  IndexedMesh mesh_;
   const Execution& execution_;
   std::vector<std::int32_t> rings_;
 };
 
 void merge_seams(RingedMesh& ringed, double diagonal, const Execution& execution,
                  MeshCheckReport& report) {
-  const SeamWeld seams = find_seams(ringed.mesh(), ringed.rings(), diagonal, execution);
+  const SeamWeld seams = find_seams(ringed.mesh, ringed.rings(), diagonal, execution);
   if (seams.weld.welded == 0) return;
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    report.degenerate_faces += drop_degenerate_faces(mesh, seams.weld.first).faces;
-    return true;
-  });
+  report.degenerate_faces += drop_degenerate_faces(ringed.mesh, seams.weld.first).faces;
+  ringed.forget_rings();
   report.merged_corners = seams.weld.welded;
   report.merged_distance = seams.distance;
 }
@@ -326,9 +313,9 @@ namespace {
 double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
             MeshCheckReport& report) {
   refuse_far_vertex(mesh, report);
-  const Box box = box_of_faces(mesh, execution);
-  check_scan_size(box.high - box.low);
-  const double diagonal = (box.high - box.low).norm();
+  const Box box = box_of_faces(mesh);
+  check_scan_size(box.sizes());
+  const double diagonal = box.sizes().norm();
   report.weld_tolerance = tolerance * diagonal;
   const Weld welded = find_equal_points(mesh.points, box, report.weld_tolerance, execution);
   const DegenerateFaces degenerate = drop_degenerate_faces(mesh, welded.first);
@@ -345,15 +332,11 @@ double weld(double tolerance, const Execution& execution, IndexedMesh& mesh,
 
 /// Drops copies of faces, and faces that lie on each other in pairs. Returns what was dropped.
 DuplicateFaces drop_copies(RingedMesh& ringed, MeshCheckReport& report) {
-  DuplicateFaces duplicates;
-  const std::vector<std::int32_t>& rings = ringed.rings();
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    duplicates = drop_duplicate_faces(mesh, rings);
-    return duplicates.copies + duplicates.folded > 0;
-  });
+  const DuplicateFaces duplicates = drop_duplicate_faces(ringed.mesh, ringed.rings());
+  if (duplicates.copies + duplicates.folded > 0) ringed.forget_rings();
   report.duplicate_faces = duplicates.copies;
   report.back_to_back_faces = duplicates.folded;
-  if (ringed.mesh().triangles.empty()) {
+  if (ringed.mesh.triangles.empty()) {
     refuse(
         "The faces of the mesh lie on each other in pairs, so it encloses no volume. Load the "
         "closed surface of a grain.");
@@ -364,32 +347,20 @@ DuplicateFaces drop_copies(RingedMesh& ringed, MeshCheckReport& report) {
 /// Keeps one component and separates its sheets.
 ManifoldRepair separate_sheets_of(RingedMesh& ringed, const Components& components,
                                   std::size_t kept) {
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    keep_faces(mesh, components, kept);
-    return components.list.size() > 1;
-  });
-  ManifoldRepair repair;
-  const std::vector<std::int32_t>& rings = ringed.rings();
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    repair = separate_sheets(mesh, rings);
-    return true;
-  });
+  keep_faces(ringed.mesh, components, kept);
+  if (components.list.size() > 1) ringed.forget_rings();
+  const ManifoldRepair repair = separate_sheets(ringed.mesh, ringed.rings());
+  ringed.forget_rings();
   return repair;
 }
 
 /// Keeps one component, turned outward, and fills its holes.
 FilledHoles fill_holes_of(RingedMesh& ringed, const Components& components, std::size_t kept,
                           MeshCheckReport& report) {
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    report.reoriented_faces = keep_component(mesh, components, kept);
-    return components.list.size() > 1 || report.reoriented_faces > 0;
-  });
-  FilledHoles filled;
-  const std::vector<std::int32_t>& rings = ringed.rings();
-  ringed.change_faces([&](IndexedMesh& mesh) {
-    filled = fill_holes(mesh, rings);
-    return true;
-  });
+  report.reoriented_faces = keep_component(ringed.mesh, components, kept);
+  if (components.list.size() > 1 || report.reoriented_faces > 0) ringed.forget_rings();
+  const FilledHoles filled = fill_holes(ringed.mesh, ringed.rings());
+  ringed.forget_rings();
   report.filled_holes = filled.holes;
   report.filling_faces = filled.faces;
   return filled;
@@ -414,12 +385,12 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   report.input_vertices = mesh.points.size();
   report.input_faces = mesh.triangles.size();
   execution.report(0.0, stage);
-  report.lost_faces = keep_usable_faces(mesh, execution);
+  report.lost_faces = keep_usable_faces(mesh);
   const double diagonal = weld(options.weld_tolerance, execution, mesh, report);
   execution.report(0.25, stage);
   RingedMesh ringed(std::move(mesh), execution);
   if (options.weld_tolerance > 0.0) merge_seams(ringed, diagonal, execution, report);
-  refuse_common_walls(ringed.mesh(), ringed.rings(), execution);
+  refuse_common_walls(ringed.mesh, ringed.rings(), execution);
   const DuplicateFaces duplicates = drop_copies(ringed, report);
   execution.report(0.5, stage);
 
@@ -427,9 +398,9 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   Components components;
   std::size_t main = 0;
   const auto look = [&] {
-    components = find_components(ringed.mesh(), ringed.rings(), execution);
+    components = find_components(ringed.mesh, ringed.rings(), execution);
     main = largest_of(components);
-    append_others(ringed.mesh(), components, main, others);
+    append_others(ringed.mesh, components, main, others);
   };
   look();
   // The repairs below are for the kept part. On a clean scan they only read counts.
@@ -453,20 +424,20 @@ CheckedMesh check_mesh(IndexedMesh mesh, const MeshCheckOptions& options,
   double seam = 0.0;
   if (boundary_edges > 0) {
     constexpr double wide = 1000.0;  // a seam of up to 1e-3 of the diagonal
-    seam = find_seams(ringed.mesh(), ringed.rings(), wide * diagonal, execution).distance;
+    seam = find_seams(ringed.mesh, ringed.rings(), wide * diagonal, execution).distance;
     filled = fill_holes_of(ringed, components, main, report);
     look();
     // The side of an open surface's volume was a guess.
     if (components.list[main].volume < 0.0) {
       report.reoriented_faces =
-          ringed.mesh().triangles.size() - filled.faces - report.reoriented_faces;
+          ringed.mesh.triangles.size() - filled.faces - report.reoriented_faces;
     }
   }
   execution.report(0.75, stage);
-  report.split_vertices +=
-      split_touching_vertices(ringed.with_same_faces(), ringed.rings(), components.of_face,
-                              static_cast<std::int32_t>(main), execution);
-  mesh = ringed.released();
+  report.split_vertices += split_touching_vertices(ringed.mesh, ringed.rings(), components.of_face,
+                                                   static_cast<std::int32_t>(main), execution);
+  ringed.forget_rings();  // frees memory
+  mesh = std::move(ringed.mesh);
   const std::size_t turned = keep_component(mesh, components, main);
   if (boundary_edges == 0) report.reoriented_faces = turned;
   if (!others.empty()) refuse_loose_faces(mesh, others.size() + 1, execution);

@@ -21,6 +21,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/coordinates.h"
 #include "wscvt/repair/scan_advice.h"
+#include "wscvt/repair/weld.h"
 #include "wscvt/sphere/sphere_triangulation.h"
 
 namespace wscvt {
@@ -312,10 +313,8 @@ IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
     scan.points = different_points(std::move(scan.points), execution);
     for (const Vector3& p : scan.points) box.extend(p);
   } else {
-    keep_usable_faces(scan, execution);
-    for (const Triangle& t : scan.triangles) {
-      for (const std::int32_t v : t) box.extend(scan.points[v]);
-    }
+    keep_usable_faces(scan);
+    box = box_of_faces(scan);
   }
   check_scan_size(box.sizes());
   if (!(options.opening_percent > 0.0) || !(box.diagonal().norm() > 0.0)) {

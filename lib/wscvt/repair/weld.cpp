@@ -44,12 +44,12 @@ Grid grid_of(const Box& box, double tolerance, std::size_t points) {
   // of their cube, and one look-up finds all near points. It is at most the spacing of points
   // spread over the surface, else a cube would contain many points. It is at least 2^-36 of the
   // box, so that a double resolves positions to 2^-17 of a cube.
-  const double extent = (box.high - box.low).maxCoeff();
+  const double extent = box.sizes().maxCoeff();
   const double spacing = extent / std::sqrt(static_cast<double>(points));
   const double size = std::max(std::min(64.0 * tolerance, std::max(spacing, 4.0 * tolerance)),
                                std::ldexp(extent, -36));
-  if (!(size > 0.0)) return {box.low, 0.0, 0.0};  // all points are equal
-  return {box.low, 1.0 / size, tolerance > 0.0 ? tolerance / size + 1e-4 : 0.0};
+  if (!(size > 0.0)) return {box.min(), 0.0, 0.0};  // all points are equal
+  return {box.min(), 1.0 / size, tolerance > 0.0 ? tolerance / size + 1e-4 : 0.0};
 }
 
 Cell cell_at(const Eigen::Array3d& position) {
@@ -62,25 +62,10 @@ Cell cell_at(const Eigen::Array3d& position) {
 
 }  // namespace
 
-Box box_of_faces(const IndexedMesh& mesh, const Execution& execution) {
-  const std::size_t faces = mesh.triangles.size();
-  std::vector<Box> parts((faces + weld_block - 1) / weld_block);
-  execution.parallel_for(faces, weld_block, [&](std::size_t begin, std::size_t end) {
-    const Vector3& start = mesh.points[index(mesh.triangles[begin][0])];
-    Box part{start, start};
-    for (std::size_t f = begin; f < end; ++f) {
-      for (const std::int32_t v : mesh.triangles[f]) {
-        part.low = part.low.cwiseMin(mesh.points[index(v)]);
-        part.high = part.high.cwiseMax(mesh.points[index(v)]);
-      }
-    }
-    parts[begin / weld_block] = part;
-  });
-  if (parts.empty()) return {};
-  Box box = parts.front();
-  for (const Box& part : parts) {
-    box.low = box.low.cwiseMin(part.low);
-    box.high = box.high.cwiseMax(part.high);
+Box box_of_faces(const IndexedMesh& mesh) {
+  Box box;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) box.extend(mesh.points[index(v)]);
   }
   return box;
 }
@@ -106,8 +91,7 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   execution.parallel_for(count, weld_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& p = points[i];
-      // Written so that NaN counts as outside, because it has no cell.
-      if (!((p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all())) {
+      if (!box.contains(p)) {  // also NaN, which has no cell
         slots[i] = outside;
         continue;
       }
@@ -189,7 +173,7 @@ SeamWeld find_seams(const IndexedMesh& mesh, const std::vector<std::int32_t>& ri
   std::vector<Vector3> points;
   for (const std::int32_t v : ends) points.push_back(mesh.points[index(v)]);
   const double tolerance = std::min(largest_share * size, 0.1 * length / static_cast<double>(open));
-  const Weld near = find_equal_points(points, box_of_faces(mesh, execution), tolerance, execution);
+  const Weld near = find_equal_points(points, box_of_faces(mesh), tolerance, execution);
   if (near.welded == 0) return result;
   std::vector<std::int32_t> first(mesh.points.size());
   std::iota(first.begin(), first.end(), 0);

@@ -11,14 +11,11 @@
 namespace wscvt {
 
 /// Box with sides along the axes.
-struct Box {
-  Vector3 low = Vector3::Zero();
-  Vector3 high = Vector3::Zero();
-};
+using Box = Eigen::AlignedBox3d;
 
 /// Returns the box of all corners of the faces. Vertices without a face do not count, because they
 /// may lie anywhere.
-Box box_of_faces(const IndexedMesh& mesh, const Execution& execution);
+Box box_of_faces(const IndexedMesh& mesh);
 
 /// The result of find_equal_points.
 struct Weld {
