@@ -26,10 +26,6 @@ std::vector<NamedMass> masses(const GrainMeasures& measures) {
   return bodies;
 }
 
-void append(std::vector<std::string>& lines, std::vector<std::string> more) {
-  for (std::string& line : more) lines.push_back(std::move(line));
-}
-
 Json report_of(const GrainMeasures& measures, const ReportOrigin& origin) {
   Json report = {{"format", "wscvt-descriptors"},
                  {"version", 2},
@@ -79,24 +75,28 @@ std::vector<std::string> table_of(const GrainMeasures& measures, bool all) {
   std::vector<std::string> lines = {"Grain       " + grain_line(measures.grain)};
   if (measures.reference) {
     lines.push_back("Reference   " + grain_line(*measures.reference));
-    append(lines,
-           table_lines(shown_rows(compare_descriptors(measures), all), {"reference", "grain"}));
+    append_lines(
+        lines, table_lines(shown_rows(compare_descriptors(measures), all), {"reference", "grain"}));
     return lines;
   }
   const std::vector<DescriptorValue> values =
       shown_rows(list_descriptors(measures.grain.descriptors), all);
   if (!measures.resolution) {
-    append(lines, table_lines(values));
+    append_lines(lines, table_lines(values));
     return lines;
   }
   lines.push_back("Resolution  " + resolution_sentence(*measures.resolution));
   Resolution shown = *measures.resolution;
   shown.rows = shown_rows(std::move(shown.rows), all);
-  append(lines, table_lines(values, shown));
+  append_lines(lines, table_lines(values, shown));
   return lines;
 }
 
 }  // namespace
+
+void append_lines(std::vector<std::string>& lines, std::vector<std::string> more) {
+  for (std::string& line : more) lines.push_back(std::move(line));
+}
 
 std::vector<DistanceRow> list_distances(const GrainMeasures& measures) {
   if (!measures.distances) return {};
@@ -133,8 +133,8 @@ std::vector<std::string> distance_lines(const GrainMeasures& measures) {
 
 std::vector<std::string> descriptor_lines(const GrainMeasures& measures) {
   std::vector<std::string> lines = table_of(measures, true);
-  append(lines, distance_lines(measures));
-  append(lines, aligned_lines(mass_rows(masses(measures))));
+  append_lines(lines, distance_lines(measures));
+  append_lines(lines, aligned_lines(mass_rows(masses(measures))));
   return lines;
 }
 

@@ -10,6 +10,9 @@
 
 namespace wscvt {
 
+/// Appends lines to a log.
+void append_lines(std::vector<std::string>& lines, std::vector<std::string> more);
+
 /// One of the distances between a grain and its reference.
 struct DistanceRow {
   std::string key;    ///< in files; never changes between versions

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -27,19 +28,15 @@ double doubled_area(const PixelPlace& a, const PixelPlace& b, double x, double y
 }  // namespace
 
 MeshView view_of(const std::vector<const IndexedMesh*>& meshes, int pixels) {
-  Vector3 lowest = Vector3::Constant(std::numeric_limits<double>::infinity());
-  Vector3 highest = -lowest;
+  Eigen::AlignedBox3d box;
   for (const IndexedMesh* const mesh : meshes) {
-    for (const Vector3& p : mesh->points) {
-      lowest = lowest.cwiseMin(p);
-      highest = highest.cwiseMax(p);
-    }
+    for (const Vector3& p : mesh->points) box.extend(p);
   }
   MeshView view;
   const Vector3 towards = Vector3(0.5, -1.0, 0.45).normalized();
   view.right = Vector3::UnitZ().cross(towards).normalized();
   view.up = towards.cross(view.right);
-  view.centre = 0.5 * (lowest + highest);
+  view.centre = box.center();
   view.pixels = pixels;
   view.half_size = 0.0;
   for (const IndexedMesh* const mesh : meshes) {
@@ -135,15 +132,14 @@ Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view
                   std::vector<Colour>(seen.faces.size(), Colour{255, 255, 255})};
   for (std::size_t i = 0; i < seen.faces.size(); ++i) {
     if (seen.faces[i] == nothing) continue;
-    const Triangle& t = mesh.triangles[static_cast<std::size_t>(seen.faces[i])];
-    const Vector3& corner = mesh.points[t[0]];
+    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(seen.faces[i])];
     const Vector3 normal =
-        (mesh.points[t[1]] - corner).cross(mesh.points[t[2]] - corner).normalized();
+        doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
     double brightness = 0.35 + 0.65 * std::max(0.0, normal.dot(light));
     if (with_edges && seen.edges[i] < edge_pixels) brightness *= 0.35;
     const Colour& colour = colour_of ? colours[asked[square_of(i)]] : grey;
-    for (std::size_t c = 0; c < 3; ++c) {
-      picture.pixels[i][c] = static_cast<std::uint8_t>(std::lround(brightness * colour[c]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      picture.pixels[i][k] = static_cast<std::uint8_t>(std::lround(brightness * colour[k]));
     }
   }
   return picture;

@@ -5,7 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include "wscvt/base/execution.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/report/picture.h"
 

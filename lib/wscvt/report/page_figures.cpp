@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/report/figures.h"
@@ -56,6 +55,11 @@ Figure picture_figure(const Picture& picture, std::size_t k, const std::string& 
   return {turning_picture(image_element(halved(picture), caption), k) + below, caption};
 }
 
+std::string size_text(const ShownMesh& shown) {
+  return shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
+         std::to_string(shown.mesh.triangles.size()) + " faces";
+}
+
 void add_triangle_histograms(std::vector<Figure>& figures,
                              const std::optional<ShownMesh>& reference, const ShownMesh& shown,
                              const Execution& execution) {
@@ -93,18 +97,15 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   const MeshView view = view_of(both, drawn_pixels);
   if (reference) {
     execution.report(0.0, page_stage);
-    figures.pictures.push_back(picture_figure(
-        draw(reference->mesh, look_at(reference->mesh, view), view, false, {}), 0,
-        reference->name + ": " + std::to_string(reference->mesh.points.size()) + " vertices, " +
-            std::to_string(reference->mesh.triangles.size()) + " faces"));
+    figures.pictures.push_back(
+        picture_figure(draw(reference->mesh, look_at(reference->mesh, view), view, false, {}), 0,
+                       size_text(*reference)));
   }
   execution.report(0.0, page_stage);
   const SeenMesh seen = look_at(shown.mesh, view);
   const bool with_edges = shown.mesh.triangles.size() <= most_faces_with_edges;
-  figures.pictures.push_back(
-      picture_figure(draw(shown.mesh, seen, view, with_edges, {}), figures.pictures.size(),
-                     shown.name + ": " + std::to_string(shown.mesh.points.size()) + " vertices, " +
-                         std::to_string(shown.mesh.triangles.size()) + " faces"));
+  figures.pictures.push_back(picture_figure(draw(shown.mesh, seen, view, with_edges, {}),
+                                            figures.pictures.size(), size_text(shown)));
   add_triangle_histograms(figures.distributions, reference, shown, execution);
   if (!reference) {
     figures.views = turning_views({{shown.mesh, with_edges, {}, 0.0}}, view);
@@ -115,12 +116,13 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   const std::vector<double> distances = surface.signed_distances(
       samples.empty() ? area_uniform_samples(shown.mesh, distance_samples) : samples, execution);
   const double usual = usual_distance(distances);
+  const auto distances_at = [&](const std::vector<Vector3>& points) {
+    return surface.signed_distances(points, execution);
+  };
   const auto colour_of = [&](const std::vector<Vector3>& points) {
     std::vector<Colour> colours;
     colours.reserve(points.size());
-    for (const double d : surface.signed_distances(points, execution)) {
-      colours.push_back(diverging_colour(d / usual));
-    }
+    for (const double d : distances_at(points)) colours.push_back(diverging_colour(d / usual));
     return colours;
   };
   figures.pictures.push_back(
@@ -134,9 +136,6 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
                         {{shown.name, shown_colour, histogram_of(distances, 1.5 * usual)}}),
        "How far " + shown.name + " lies outside (positive) and inside of " + reference->name +
            ", by area. Values beyond the ends are counted in the end bins."});
-  const auto distances_at = [&](const std::vector<Vector3>& points) {
-    return surface.signed_distances(points, execution);
-  };
   figures.views = turning_views({{reference->mesh, false, {}, 0.0},
                                  {shown.mesh, with_edges, {}, 0.0},
                                  {shown.mesh, false, distances_at, usual}},

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "wscvt/base/option.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"

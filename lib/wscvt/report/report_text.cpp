@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,10 +15,6 @@ namespace wscvt {
 
 namespace {
 
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
 constexpr std::size_t topic_width = 12;
 
 std::string line(const std::string& topic, const std::string& text) {
@@ -30,7 +27,7 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   std::vector<std::string> parts;
   const auto add = [&parts](std::size_t count, const char* one, const char* many,
                             const std::string& what) {
-    if (count > 0) parts.push_back(counted(count, one, many) + " " + what);
+    if (count > 0) parts.push_back(format_count(count, one, many) + " " + what);
   };
   const auto with_area = [](const char* what, double share) {
     return std::string(what) + " (" + format_percent(share) + " of the area)";
@@ -60,7 +57,7 @@ std::vector<std::string> repairs(const MeshCheckReport& input) {
   add(outer, "smaller body", "smaller bodies",
       "removed (" + format_percent(input.dropped_volume_fraction) + " of the volume)");
   if (inner + outer > 0) {
-    parts.push_back(counted(input.dropped_faces, "face", "faces") + " removed with them");
+    parts.push_back(format_count(input.dropped_faces, "face") + " removed with them");
   }
   return parts;
 }
@@ -72,13 +69,13 @@ void append_input(const RemeshResult& result, std::vector<std::string>& lines) {
                                      format_number(input.equivalent_radius, 6)));
     return;
   }
-  lines.push_back(line("Scan", counted(input.input_vertices, "vertex", "vertices") + ", " +
-                                   counted(input.input_faces, "face", "faces") +
+  lines.push_back(line("Scan", format_count(input.input_vertices, "vertex", "vertices") + ", " +
+                                   format_count(input.input_faces, "face") +
                                    "; lengths are in its unit"));
   const std::vector<std::string> done = repairs(input);
   lines.push_back(line("Repairs", done.empty() ? "none needed" : listed(done)));
-  lines.push_back(line("Repaired", counted(input.vertices, "vertex", "vertices") + ", " +
-                                       counted(input.faces, "face", "faces") + ", closed, genus " +
+  lines.push_back(line("Repaired", format_count(input.vertices, "vertex", "vertices") + ", " +
+                                       format_count(input.faces, "face") + ", closed, genus " +
                                        std::to_string(input.genus) + ", equivalent radius " +
                                        format_number(input.equivalent_radius)));
 }
@@ -93,7 +90,7 @@ void append_handles(const HandleReport& handles, std::vector<std::string>& lines
   constexpr std::size_t most_told = 5;
   const std::vector<CutHandle>& cut = handles.cut;
   if (cut.empty() && handles.kept == 0) return;
-  std::string text = counted(cut.size(), "handle", "handles") + " cut and closed";
+  std::string text = format_count(cut.size(), "handle") + " cut and closed";
   for (std::size_t i = 0; i < std::min(cut.size(), most_told); ++i) {
     text += std::string(i == 0 ? ": " : "; ") + "loop of " + format_number(cut[i].length, 3) +
             " at " + point_text(cut[i].place);
@@ -145,24 +142,23 @@ void append_method(const OnScanReport& report, const RemeshResult& result,
   lines.push_back(
       line("Weighting", weighting_text(options, options.weighting == CellWeighting::Curvature)));
   const ScanNodesReport& nodes = report.nodes;
-  lines.push_back(line(
-      "Nodes", "coarsened on " + counted(nodes.proxy_vertices, "vertex", "vertices") +
-                   ", edge lengths equalized in " +
-                   counted(static_cast<std::size_t>(nodes.equalization_steps), "step", "steps")));
+  lines.push_back(
+      line("Nodes", "coarsened on " + format_count(nodes.proxy_vertices, "vertex", "vertices") +
+                        ", edge lengths equalized in " +
+                        format_count(static_cast<std::size_t>(nodes.equalization_steps), "step")));
   if (nodes.fit_rounds > 0) {
-    lines.push_back(
-        line("Fit", counted(static_cast<std::size_t>(nodes.fit_rounds), "round", "rounds") + ", " +
-                        counted(static_cast<std::size_t>(nodes.fit_flips), "edge", "edges") +
-                        " flipped, " +
-                        counted(static_cast<std::size_t>(nodes.relocations), "node", "nodes") +
-                        " relocated; volume corrected by an offset of " +
-                        format_number(nodes.volume_offset, 2)));
+    lines.push_back(line(
+        "Fit", format_count(static_cast<std::size_t>(nodes.fit_rounds), "round") + ", " +
+                   format_count(static_cast<std::size_t>(nodes.fit_flips), "edge") + " flipped, " +
+                   format_count(static_cast<std::size_t>(nodes.relocations), "node") +
+                   " relocated; volume corrected by an offset of " +
+                   format_number(nodes.volume_offset, 2)));
   }
   lines.push_back(line("Edge ratio", "mean " + format_number(nodes.mean_edge_ratio, 4) +
                                          " (wanted " + format_typed(options.edge_ratio) + ")"));
   lines.push_back(line("Intersections",
-                       counted(nodes.self_intersections, "pair", "pairs") + " of " +
-                           counted(result.mesh.triangles.size(), "triangle", "triangles") +
+                       format_count(nodes.self_intersections, "pair") + " of " +
+                           format_count(result.mesh.triangles.size(), "triangle") +
                            (nodes.repaired_intersections > 0
                                 ? ", " + std::to_string(nodes.repaired_intersections) + " removed"
                                 : std::string())));
@@ -181,8 +177,7 @@ void append_method(const AsPublishedReport& report, const RemeshResult& result,
       line("Weighting", weighting_text(options, options.weighting == Weighting::Curvature)));
   const RelaxationReport& relaxation = report.relaxation;
   const auto iterations = static_cast<std::size_t>(std::max(relaxation.iterations, 0));
-  std::string text =
-      label_of(relaxation.outcome) + " " + counted(iterations, "iteration", "iterations");
+  std::string text = label_of(relaxation.outcome) + " " + format_count(iterations, "iteration");
   for (auto level = relaxation.coarser_levels.rbegin(); level != relaxation.coarser_levels.rend();
        ++level) {
     text += (level == relaxation.coarser_levels.rbegin() ? " (after " : ", ") +
@@ -234,7 +229,7 @@ void append_distances(const RemeshResult& result, std::vector<std::string>& line
           result.distances->root_mean_square),
       row("  mean", to.mean, from.mean, std::max(to.mean, from.mean)),
   };
-  for (std::string& text : aligned_lines(rows)) lines.push_back(std::move(text));
+  append_lines(lines, aligned_lines(rows));
 }
 
 void append_quality(const RemeshResult& result, std::vector<std::string>& lines) {
@@ -259,11 +254,37 @@ void append_quality(const RemeshResult& result, std::vector<std::string>& lines)
       row("  vertices with six neighbours, %", 100.0 * a.valence_six_fraction,
           100.0 * b.valence_six_fraction),
   };
-  for (std::string& text : aligned_lines(rows)) lines.push_back(std::move(text));
+  append_lines(lines, aligned_lines(rows));
 }
 
 std::vector<DescriptorComparison> comparison(const RemeshResult& result) {
   return compare_descriptors(list_descriptors(result.scan), list_descriptors(result.remesh));
+}
+
+/// The errors of the paper's descriptors, in its order.
+std::vector<std::string> descriptor_errors(const RemeshResult& result) {
+  constexpr std::array<std::pair<const char*, const char*>, 5> shown = {
+      {{"volume", "volume"},
+       {"area", "area"},
+       {"aspect_ratio_inertia", "aspect ratio"},
+       {"sphericity_wadell", "sphericity"},
+       {"sdq_invariant", "Sdq"}}};
+  const std::vector<DescriptorComparison> rows = comparison(result);
+  std::vector<std::string> errors;
+  for (const auto& [key, label] : shown) {
+    for (const DescriptorComparison& row : rows) {
+      if (row.key != key) continue;
+      const bool is_reliable =
+          row.key != "sdq_invariant" || sdq_clip_sentence("", result.scan).empty();
+      errors.push_back(std::string(label) + " " +
+                       (is_reliable ? error_text(row.error_percent) : "not reliable"));
+    }
+  }
+  return errors;
+}
+
+std::string percent_of_radius(const RemeshResult& result, double length) {
+  return format_number(100.0 * length / result.input.equivalent_radius, 3) + " %";
 }
 
 }  // namespace
@@ -280,26 +301,20 @@ std::vector<std::string> result_lines(const RemeshResult& result) {
   append_input(result, lines);
   std::visit([&](const auto& report) { append_method(report, result, lines); }, result.method);
   append_search(result, lines);
-  lines.push_back(line("Result", counted(result.mesh.points.size(), "node", "nodes") + ", " +
-                                     counted(result.mesh.triangles.size(), "face", "faces") +
+  lines.push_back(line("Result", format_count(result.mesh.points.size(), "node") + ", " +
+                                     format_count(result.mesh.triangles.size(), "face") +
                                      ", placement: " + placement_label(result.options)));
-  lines.push_back(
-      line("Distance",
-           "rms " + format_number(result.rms_distance, 3) + " (" +
-               format_number(100.0 * result.rms_distance / result.input.equivalent_radius, 3) +
-               " % of the equivalent radius), largest " +
-               format_number(result.largest_distance, 3) + " (" +
-               format_number(100.0 * result.largest_distance / result.input.equivalent_radius, 3) +
-               " %), two-sided"));
+  lines.push_back(line("Distance", "rms " + format_number(result.rms_distance, 3) + " (" +
+                                       percent_of_radius(result, result.rms_distance) +
+                                       " of the equivalent radius), largest " +
+                                       format_number(result.largest_distance, 3) + " (" +
+                                       percent_of_radius(result, result.largest_distance) +
+                                       "), two-sided"));
   append_distances(result, lines);
   append_quality(result, lines);
-  for (std::string& text : table_lines(comparison(result), ComparisonNames())) {
-    lines.push_back(std::move(text));
-  }
-  for (std::string& text : aligned_lines(mass_rows(
-           {{"scan", mass_properties(result.scan)}, {"remesh", mass_properties(result.remesh)}}))) {
-    lines.push_back(std::move(text));
-  }
+  append_lines(lines, table_lines(comparison(result), ComparisonNames()));
+  append_lines(lines, aligned_lines(mass_rows({{"scan", mass_properties(result.scan)},
+                                               {"remesh", mass_properties(result.remesh)}})));
   return lines;
 }
 
@@ -307,6 +322,39 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   std::vector<std::string> lines = result_lines(result);
   for (const std::string& warning : report_warnings(result))
     lines.push_back(line("Warning", warning));
+  return lines;
+}
+
+std::string verdict_line(const RemeshResult& result) {
+  const std::vector<std::string> errors = descriptor_errors(result);
+  const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " + errors[0] +
+                               ", " + errors[1] + ", rms " +
+                               percent_of_radius(result, result.rms_distance) + " of the radius: ";
+  return measured + (result.warnings.empty() ? "good" : "see above");
+}
+
+std::vector<std::string> summary_lines(const RemeshResult& result) {
+  std::vector<std::string> lines;
+  // Of the whole report, what was read, repaired and searched.
+  for (const std::string& told : report_lines(result)) {
+    const bool is_shown = told.rfind("Scan ", 0) == 0 || told.rfind("Repairs ", 0) == 0 ||
+                          told.rfind("Handles ", 0) == 0 || told.rfind("Node count ", 0) == 0;
+    if (!is_shown || told.find("none needed") != std::string::npos) continue;
+    const std::size_t gap = told.find_first_of(' ', told.rfind("Node", 0) == 0 ? 5 : 0);
+    const std::size_t text = told.find_first_not_of(' ', gap);
+    lines.push_back(line(told.substr(0, gap), told.substr(text)));
+  }
+  lines.push_back(
+      line("Remesh", std::to_string(result.mesh.points.size()) + " nodes, " +
+                         std::to_string(result.mesh.triangles.size()) + " faces, edge ratio " +
+                         format_number(result.quality.edge_ratio.mean, 4) + ", smallest angle " +
+                         format_number(result.quality.smallest_angle, 3) + " degrees"));
+  lines.push_back(line("Errors", listed(descriptor_errors(result))));
+  lines.push_back(line("Distance", "rms " + percent_of_radius(result, result.rms_distance) +
+                                       ", largest " +
+                                       percent_of_radius(result, result.largest_distance) +
+                                       " of the equivalent radius " +
+                                       format_number(result.input.equivalent_radius)));
   return lines;
 }
 
