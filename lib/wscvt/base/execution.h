@@ -9,6 +9,10 @@
 
 namespace wscvt {
 
+/// Indices in a block of a loop with a short body. Large enough that the start of a block costs
+/// little.
+inline constexpr std::size_t usual_block = 16384;
+
 /// Called on the thread that called the library, with the fraction of the work done, 0 to 1, and
 /// the name of the stage. Returning false cancels: the library throws Error(Cancelled).
 using ProgressCallback = std::function<bool(double fraction, const std::string& stage)>;

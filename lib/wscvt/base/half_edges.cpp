@@ -39,8 +39,7 @@ void visit_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
         const Triangle& t = triangles[h / 3];
         visit_group(index(std::min(t[h % 3], t[following(h % 3)])));
       });
-  constexpr std::size_t block_size = 16384;
-  execution.parallel_for(vertices, block_size, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(vertices, usual_block, [&](std::size_t begin, std::size_t end) {
     std::vector<Link> bucket;
     for (std::size_t v = begin; v < end; ++v) {
       bucket.clear();

@@ -7,7 +7,6 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
-#include <utility>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/system_files.h"

@@ -13,9 +13,8 @@ namespace wscvt {
 
 MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                    const Vector3& origin, const Execution& execution) {
-  constexpr std::size_t block_size = 16384;
   return execution.parallel_sum(
-      triangles.size(), block_size, MeshSums(), [&](std::size_t begin, std::size_t end) {
+      triangles.size(), usual_block, MeshSums(), [&](std::size_t begin, std::size_t end) {
         MeshSums part;
         for (std::size_t f = begin; f < end; ++f) {
           const auto& [a, b, c] = triangles[f];

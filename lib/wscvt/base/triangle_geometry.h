@@ -45,6 +45,16 @@ Vector3 doubled_area_normal(const Mesh& mesh, std::size_t t) {
   return doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
 }
 
+/// Returns the corners of a triangle of a mesh.
+inline std::array<Vector3, 3> corners_of(const IndexedMesh& mesh, const Triangle& t) {
+  return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+}
+
+/// Area of a triangle of a mesh.
+inline double triangle_area(const IndexedMesh& mesh, const Triangle& t) {
+  return triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+}
+
 /// Returns the barycentric weights of the point of the triangle a, b, c nearest to `p`: each >= 0,
 /// sum 1 (Ericson 2005, "Real-time collision detection", section 5.1.5).
 Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p);

@@ -201,9 +201,7 @@ class LegacyVtkReader {
   std::vector<std::int64_t> named_numbers(std::size_t count) {
     TextFields fields(reader_.filled_line().value_or(""));
     fields.next();
-    const std::string line(fields.rest());
-    TextFields rest(line);
-    const Stored type = type_in(rest);
+    const Stored type = type_in(fields);
     if (type == Stored::Float32 || type == Stored::Float64) {
       reader_.fail_line("announces corners that are not whole numbers");
     }
@@ -211,8 +209,7 @@ class LegacyVtkReader {
   }
 
   std::vector<double> next_array() {
-    const std::string line(reader_.filled_line().value_or(""));
-    TextFields fields(line);
+    TextFields fields(reader_.filled_line().value_or(""));
     fields.next();
     const std::size_t components = count_in(fields);
     const std::size_t tuples = count_in(fields);

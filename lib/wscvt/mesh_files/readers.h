@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "wscvt/base/execution.h"
-#include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/mesh_attributes.h"
 #include "wscvt/mesh_files/byte_reader.h"
 

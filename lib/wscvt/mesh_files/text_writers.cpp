@@ -2,7 +2,6 @@
 #include "wscvt/mesh_files/text_writers.h"
 
 #include <charconv>
-#include <cmath>
 #include <ostream>
 
 #include "wscvt/base/text_format.h"
@@ -82,9 +81,7 @@ std::string short_text(double value) {
 void write_stl_text(std::ostream& stream, const IndexedMesh& mesh) {
   stream << "solid grain\n";
   for (const Triangle& t : mesh.triangles) {
-    const Vector3& a = mesh.points[t[0]];
-    const Vector3& b = mesh.points[t[1]];
-    const Vector3& c = mesh.points[t[2]];
+    const auto [a, b, c] = corners_of(mesh, t);
     const Vector3 across = doubled_area_normal(a, b, c);
     const double length = across.norm();
     const Vector3 normal = length > 0.0 ? Vector3(across / length) : Vector3::Zero();

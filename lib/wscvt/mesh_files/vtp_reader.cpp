@@ -4,12 +4,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "wscvt/base/error.h"

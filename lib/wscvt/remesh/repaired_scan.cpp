@@ -39,7 +39,11 @@ RepairedScan repair_scan(IndexedMesh scan, const RemeshOptions& options,
     repaired.steep_area_fraction =
         steep_area_fraction(repaired.checked.mesh, report.centroid, execution);
   }
-  if (options.points || wraps) count_given(points, faces, different, report);
+  if (options.points || wraps) {  // the report is on the surface that was made
+    report.input_vertices = points;
+    report.input_faces = faces;
+    report.welded_vertices = points - different;
+  }
   return repaired;
 }
 

@@ -15,13 +15,11 @@ namespace wscvt {
 
 namespace {
 
-constexpr std::size_t component_block = 8192;
-
 /// Whether every edge has two faces, with consistent orientation.
 bool is_closed_and_oriented(const std::vector<Triangle>& triangles,
                             const std::vector<std::int32_t>& rings, const Execution& execution) {
   const std::size_t others = execution.parallel_sum(
-      triangles.size(), component_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+      triangles.size(), usual_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t h = 3 * begin; h < 3 * end; ++h) {
           const auto half_edge = static_cast<std::int32_t>(h);
           const std::int32_t other = rings[h];
@@ -115,10 +113,9 @@ Components find_components(const IndexedMesh& mesh, const std::vector<std::int32
     const std::size_t c = index(result.of_face[f]);
     if (origin[c] < 0) origin[c] = t[0];
     const Vector3& o = mesh.points[index(origin[c])];
-    const Vector3 p = mesh.points[index(t[0])] - o;
-    const Vector3 q = mesh.points[index(t[1])] - o;
-    const Vector3 r = mesh.points[index(t[2])] - o;
-    result.list[c].volume += (result.turned[f] ? -1.0 : 1.0) * six_volumes(p, q, r) / 6.0;
+    const auto [p, q, r] = corners_of(mesh, t);
+    const double volume = six_volumes(p - o, q - o, r - o) / 6.0;
+    result.list[c].volume += result.turned[f] ? -volume : volume;
   }
   return result;
 }
@@ -151,9 +148,6 @@ std::size_t keep_component(IndexedMesh& mesh, const Components& components, std:
 
 namespace {
 
-/// Large enough that the start of a block costs little.
-constexpr std::size_t enclosure_block = 16384;
-
 /// Returns 1 if the projection of edge a b to the plane z = 0 passes above the point (in y) to the
 /// right, -1 if to the left, 0 if it does not pass. It is computed from the lower vertex, so both
 /// faces of an edge get equal results with opposite signs. For any rounding, each face over a point
@@ -185,16 +179,14 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
   };
   // Each block has a list of all points. Use few blocks, so that many points need no more memory
   // than a mesh.
-  const std::size_t block = std::max(enclosure_block, (mesh.triangles.size() + 15) / 16);
+  const std::size_t block = std::max(usual_block, (mesh.triangles.size() + 15) / 16);
   const Windings windings = execution.parallel_sum(
       mesh.triangles.size(), block, Windings{std::vector<int>(points.size(), 0)},
       [&](std::size_t begin, std::size_t end) {
         Windings part{std::vector<int>(points.size(), 0)};
         for (std::size_t f = begin; f < end; ++f) {
           const Triangle& t = mesh.triangles[f];
-          const Vector3& a = mesh.points[index(t[0])];
-          const Vector3& b = mesh.points[index(t[1])];
-          const Vector3& c = mesh.points[index(t[2])];
+          const auto [a, b, c] = corners_of(mesh, t);
           const double low = std::min({a.x(), b.x(), c.x()});
           const double high = std::max({a.x(), b.x(), c.x()});
           const auto from =

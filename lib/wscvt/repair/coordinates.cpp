@@ -21,9 +21,7 @@ namespace {
 std::size_t collapsed_faces(const IndexedMesh& mesh) {
   return static_cast<std::size_t>(
       std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-        const Vector3& a = mesh.points[t[0]];
-        const Vector3& b = mesh.points[t[1]];
-        const Vector3& c = mesh.points[t[2]];
+        const auto [a, b, c] = corners_of(mesh, t);
         return a == b || b == c || c == a;
       }));
 }

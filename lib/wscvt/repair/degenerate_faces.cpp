@@ -76,9 +76,7 @@ DuplicateFaces drop_duplicate_faces(IndexedMesh& mesh, const std::vector<std::in
     if (last - first > 1) {
       const std::array<Edge, 3> sides = edges_of(candidates[first].key);
       const bool keep = std::any_of(sides.begin(), sides.end(), needs_face);
-      const Triangle& t = candidates[first].key;
-      const double area = triangle_area(mesh.points[index(t[0])], mesh.points[index(t[1])],
-                                        mesh.points[index(t[2])]);
+      const double area = triangle_area(mesh, candidates[first].key);
       for (std::size_t i = first + (keep ? 1 : 0); i < last; ++i) {
         dropped[index(candidates[i].face)] = 1;
         ++(keep ? result.copies : result.folded);

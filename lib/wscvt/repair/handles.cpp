@@ -13,7 +13,6 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
-#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/scan_advice.h"

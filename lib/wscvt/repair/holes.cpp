@@ -148,8 +148,7 @@ FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings
     for (const Triangle& face : filling(mesh, rim, taken)) {
       mesh.triangles.push_back(face);
       ++result.faces;
-      area += triangle_area(mesh.points[index(face[0])], mesh.points[index(face[1])],
-                            mesh.points[index(face[2])]);
+      area += triangle_area(mesh, face);
       for (std::size_t k = 0; k < 3; ++k) taken.insert(edge_of(face[k], face[following(k)]));
     }
     double length = 0.0;

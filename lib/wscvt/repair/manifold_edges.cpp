@@ -107,9 +107,7 @@ class Sheets {
         stack.pop_back();
         ++patch.faces;
         patch.turned_faces += static_cast<std::size_t>(turned_[f]);
-        patch.area += triangle_area(mesh_.points[index(triangles[f][0])],
-                                    mesh_.points[index(triangles[f][1])],
-                                    mesh_.points[index(triangles[f][2])]);
+        patch.area += triangle_area(mesh_, triangles[f]);
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t h = 3 * f + k;
           const std::int32_t other = rings_[h];

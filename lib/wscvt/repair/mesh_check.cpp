@@ -2,10 +2,8 @@
 #include "wscvt/repair/mesh_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,10 +80,8 @@ void append_others(const IndexedMesh& mesh, const Components& components, std::s
     if (own != t.end()) list[c].points.push_back(mesh.points[index(*own)]);
   }
   for (std::size_t c = 0; c < list.size(); ++c) {
-    if (list[c].points.empty()) list[c].points.push_back(centres[c]);
-  }
-  for (std::size_t c = 0; c < list.size(); ++c) {
     if (c == main) continue;
+    if (list[c].points.empty()) list[c].points.push_back(centres[c]);
     list[c].faces = components.list[c].faces;
     list[c].volume = std::abs(components.list[c].volume);
     list[c].is_open = components.list[c].boundary_edges > 0;
@@ -227,9 +223,8 @@ void merge_seams(RingedMesh& ringed, double diagonal, const Execution& execution
 void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
                          const Execution& execution) {
   constexpr double largest_other = 0.05;  // of the volume; flaws of a scan enclose less
-  constexpr std::size_t block = 16384;
   const std::size_t beyond_two = execution.parallel_sum(
-      rings.size(), block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
+      rings.size(), usual_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
         std::size_t count = 0;
         for (std::size_t h = begin; h < end; ++h) {
           count += index(rings[index(rings[h])]) == h ? 0 : 1;

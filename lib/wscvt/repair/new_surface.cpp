@@ -71,13 +71,6 @@ IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& ex
          mention("points", "true") + ".");
 }
 
-void count_given(std::size_t points, std::size_t faces, std::size_t different,
-                 MeshCheckReport& report) {
-  report.input_vertices = points;
-  report.input_faces = faces;
-  report.welded_vertices = points - different;
-}
-
 namespace {
 
 /// Splits the faces of a node of CGAL's tree of boxes in two, as its traits do, and reports

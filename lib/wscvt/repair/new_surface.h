@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "wscvt/base/execution.h"
@@ -26,11 +25,6 @@ IndexedMesh mesh_of_points(std::vector<Vector3> points, const Execution& executi
 /// false, because a scan that has lost its faces must not pass for a cloud. Throws as
 /// mesh_of_points.
 IndexedMesh with_surface(IndexedMesh scan, bool points_only, const Execution& execution);
-
-/// Writes the input's counts into the report on a surface made from points or a shrink-wrap:
-/// points, different points, and unused faces.
-void count_given(std::size_t points, std::size_t faces, std::size_t different,
-                 MeshCheckReport& report);
 
 /// Returns a closed, outward 2-manifold about a scan with any flaws. A ball of the opening's
 /// diameter rolls over the scan and does not enter narrower gaps (Portaneri et al. 2022, "Alpha

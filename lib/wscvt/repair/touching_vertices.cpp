@@ -9,9 +9,6 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that the start of a block costs little.
-constexpr std::size_t fan_block = 16384;
-
 /// Returns the corners of a component's faces at each of the vertices, which are ascending.
 std::vector<std::vector<std::int32_t>> corners_at(const std::vector<std::int32_t>& touching,
                                                   const std::vector<Triangle>& triangles,
@@ -66,13 +63,13 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
     } while (corner != start);
   };
   // One list per block, joined in order, so the result does not depend on the number of threads.
-  std::vector<std::vector<std::int32_t>> found((vertices + fan_block - 1) / fan_block);
-  execution.parallel_for(vertices, fan_block, [&](std::size_t begin, std::size_t end) {
+  std::vector<std::vector<std::int32_t>> found((vertices + usual_block - 1) / usual_block);
+  execution.parallel_for(vertices, usual_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (valence[v] == 0) continue;
       std::int32_t visited = 0;
       walk_fan(first_corner[v], [&](std::int32_t) { ++visited; });
-      if (visited != valence[v]) found[begin / fan_block].push_back(static_cast<std::int32_t>(v));
+      if (visited != valence[v]) found[begin / usual_block].push_back(static_cast<std::int32_t>(v));
     }
   });
 

@@ -13,9 +13,6 @@ namespace wscvt {
 
 namespace {
 
-/// Large enough that the start of a block costs little.
-constexpr std::size_t weld_block = 16384;
-
 using Cell = std::array<std::int64_t, 3>;
 
 std::uint64_t hash_of(const Cell& cell) {
@@ -88,7 +85,7 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   constexpr std::uint32_t at_side = 1U << 31U;    // equal points may be in the next cubes
   constexpr std::uint32_t outside = 0xFFFFFFFFU;  // not compared
   std::vector<std::uint32_t> slots(count);
-  execution.parallel_for(count, weld_block, [&](std::size_t begin, std::size_t end) {
+  execution.parallel_for(count, usual_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3& p = points[i];
       if (!box.contains(p)) {  // also NaN, which has no cell

@@ -24,9 +24,7 @@ constexpr std::size_t most_points = 60000;
 /// Joins the points in each cube of a grid: for the eye only. Returns about `most_points`.
 IndexedMesh coarse(const IndexedMesh& mesh) {
   double area = 0.0;
-  for (const Triangle& t : mesh.triangles) {
-    area += triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
-  }
+  for (const Triangle& t : mesh.triangles) area += triangle_area(mesh, t);
   // A surface meets about 1.5 cubes where it has the area of a side.
   const double side = std::sqrt(1.5 * area / static_cast<double>(most_points));
   std::map<std::array<std::int64_t, 3>, std::int32_t> numbers;
