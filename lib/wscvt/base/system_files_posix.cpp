@@ -20,15 +20,21 @@ namespace wscvt::system_files {
 
 namespace {
 
-bool write_and_close(int descriptor, const std::string& content) {
-  if (descriptor < 0) return false;
+bool write_all(int descriptor, const std::string& content, bool goes_on_after_signal) {
   std::size_t written = 0;
   while (written < content.size()) {
     const ssize_t count = ::write(descriptor, content.data() + written, content.size() - written);
-    if (count <= 0) break;
+    if (count < 0 && errno == EINTR && goes_on_after_signal) continue;
+    if (count <= 0) return false;
     written += static_cast<std::size_t>(count);
   }
-  return ::close(descriptor) == 0 && written == content.size();
+  return true;
+}
+
+bool write_and_close(int descriptor, const std::string& content) {
+  if (descriptor < 0) return false;
+  const bool good = write_all(descriptor, content, false);
+  return ::close(descriptor) == 0 && good;
 }
 
 }  // namespace
@@ -120,14 +126,7 @@ std::optional<std::string> LockedFile::read(std::size_t from, std::size_t size) 
 }
 
 bool LockedFile::append(const std::string& bytes) const {
-  std::size_t written = 0;
-  while (written < bytes.size()) {
-    const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    written += static_cast<std::size_t>(count);
-  }
-  return true;
+  return write_all(descriptor_, bytes, true);
 }
 
 bool LockedFile::cut(std::size_t size) const {

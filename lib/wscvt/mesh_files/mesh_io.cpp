@@ -105,7 +105,7 @@ void write_properties(std::ostream& stream, const std::vector<MeshAttribute>& at
   }
 }
 
-bool write_ply_with(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates,
+void write_ply_with(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates,
                     const MeshAttributes& attributes) {
   const ScalarType type =
       coordinates == PlyCoordinates::Double ? ScalarType::Float64 : ScalarType::Float32;
@@ -127,11 +127,10 @@ bool write_ply_with(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinate
     for (const MeshAttribute& a : attributes.of_faces) add_number(bytes, a.type, a.values[t]);
   }
   bytes.flush();
-  return true;
 }
 
-bool write_ply(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates) {
-  return write_ply_with(stream, mesh, coordinates, MeshAttributes());
+void write_ply(std::ostream& stream, const IndexedMesh& mesh) {
+  write_ply_with(stream, mesh, PlyCoordinates::Double, MeshAttributes());
 }
 
 /// Returns the number of points that single precision makes equal to a different point.
@@ -162,26 +161,19 @@ std::vector<LibraryPoint> library_points(const IndexedMesh& mesh) {
   return points;
 }
 
-bool write_stl(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+void write_stl(std::ostream& stream, const IndexedMesh& mesh) {
   CGAL::IO::set_binary_mode(stream);
-  return CGAL::IO::write_STL(stream, library_points(mesh), mesh.triangles);
+  CGAL::IO::write_STL(stream, library_points(mesh), mesh.triangles);
 }
 
-bool write_obj(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
+void write_obj(std::ostream& stream, const IndexedMesh& mesh) {
   stream.precision(17);  // the library forgets it where it is a parameter
-  return CGAL::IO::write_OBJ(stream, library_points(mesh), mesh.triangles);
+  CGAL::IO::write_OBJ(stream, library_points(mesh), mesh.triangles);
 }
 
-bool write_off(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
-  return CGAL::IO::write_OFF(stream, library_points(mesh), mesh.triangles,
-                             CGAL::parameters::stream_precision(17));
-}
-
-/// A writer without a choice of coordinates.
-template <void (*Write)(std::ostream&, const IndexedMesh&)>
-bool write_by(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates) {
-  Write(stream, mesh);
-  return true;
+void write_off(std::ostream& stream, const IndexedMesh& mesh) {
+  CGAL::IO::write_OFF(stream, library_points(mesh), mesh.triangles,
+                      CGAL::parameters::stream_precision(17));
 }
 
 void write_plain_vtp(std::ostream& stream, const IndexedMesh& mesh) { write_vtp(stream, mesh); }
@@ -189,8 +181,8 @@ void write_plain_vtp(std::ostream& stream, const IndexedMesh& mesh) { write_vtp(
 struct Format {
   std::string_view extension;
   void (*read)(ByteReader& reader, MeshFile& file);  ///< null: only written
-  /// Null: only read.
-  bool (*write)(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates);
+  /// Null: only read. A stream that fails tells it.
+  void (*write)(std::ostream& stream, const IndexedMesh& mesh);
   bool is_scan = true;  ///< else a file in a folder counts only if it is named
 };
 
@@ -200,14 +192,14 @@ constexpr std::string_view text_stl = ".ascii.stl";
 constexpr Format formats[] = {
     {".ply", read_ply, write_ply},
     {".stl", read_stl, write_stl},
-    {text_stl, nullptr, write_by<write_stl_text>},
+    {text_stl, nullptr, write_stl_text},
     {".obj", read_obj, write_obj},
     {".off", read_off, write_off},
-    {".vtp", read_vtp, write_by<write_plain_vtp>},
-    {".vtk", read_legacy_vtk, write_by<write_legacy_vtk>},
-    {".vtu", read_vtp, write_by<write_vtu>, false},
-    {".msh", read_gmsh, write_by<write_gmsh>, false},
-    {".inp", read_abaqus, write_by<write_abaqus>, false},
+    {".vtp", read_vtp, write_plain_vtp},
+    {".vtk", read_legacy_vtk, write_legacy_vtk},
+    {".vtu", read_vtp, write_vtu, false},
+    {".msh", read_gmsh, write_gmsh, false},
+    {".inp", read_abaqus, write_abaqus, false},
     {".xyz", read_point_text, nullptr, false},
     {".csv", read_point_text, nullptr, false},
     {".pcd", read_pcd, nullptr, false},
@@ -331,11 +323,24 @@ bool is_single(const Format& format, PlyCoordinates coordinates) {
          (format.write == write_ply && coordinates == PlyCoordinates::Float);
 }
 
+/// Refuses positions that no reader takes.
+void check_positions(const IndexedMesh& mesh, const std::string& path, bool in_floats) {
+  const double largest =
+      in_floats ? double{std::numeric_limits<float>::max()} : std::numeric_limits<double>::max();
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (mesh.points[v].allFinite() && mesh.points[v].cwiseAbs().maxCoeff() <= largest) continue;
+    refuse(in_quotes(path) + " cannot store vertex " + std::to_string(v) +
+           ", counted from 0: a coordinate is not finite" +
+           (in_floats ? " in single precision. Write doubles, or scale the mesh."
+                      : ". Leave it out, with its faces."));
+  }
+}
+
 }  // namespace
 
 IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
-  const bool is_short = format.write == write_by<write_abaqus>;
+  const bool is_short = format.write == write_abaqus;
   if (!is_single(format, coordinates) && !is_short) return mesh;
   for (Vector3& p : mesh.points) {
     for (double& coordinate : p) {
@@ -347,27 +352,10 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates
   return mesh;
 }
 
-namespace {
-
-/// Refuses positions that no reader takes.
-void check_positions(const IndexedMesh& mesh, const std::string& path, bool is_single) {
-  const double largest =
-      is_single ? double{std::numeric_limits<float>::max()} : std::numeric_limits<double>::max();
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    if (mesh.points[v].allFinite() && mesh.points[v].cwiseAbs().maxCoeff() <= largest) continue;
-    refuse(in_quotes(path) + " cannot store vertex " + std::to_string(v) +
-           ", counted from 0: a coordinate is not finite" +
-           (is_single ? " in single precision. Write doubles, or scale the mesh."
-                      : ". Leave it out, with its faces."));
-  }
-}
-
-}  // namespace
-
 void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
   check_positions(mesh, path, is_single(format, coordinates));
-  const bool is_stl = format.write == write_stl || format.write == write_by<write_stl_text>;
+  const bool is_stl = format.write == write_stl || format.write == write_stl_text;
   if (is_stl && mesh.triangles.empty()) {
     refuse("\"" + path + "\" would be empty: STL has only triangles, and the mesh has none.");
   }
@@ -386,7 +374,14 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates
               ". Write PLY, OBJ or OFF, or move the mesh to the origin first.");
     }
   }
-  write_file(path, [&](std::ostream& stream) { return format.write(stream, mesh, coordinates); });
+  write_file(path, [&](std::ostream& stream) {
+    if (format.write == write_ply) {
+      write_ply_with(stream, mesh, coordinates, MeshAttributes());
+    } else {
+      format.write(stream, mesh);
+    }
+    return true;
+  });
 }
 
 bool holds_attributes(const std::string& path) {
@@ -419,7 +414,8 @@ void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
     }
   }
   write_file(path, [&](std::ostream& stream) {
-    return write_ply_with(stream, mesh, PlyCoordinates::Double, attributes);
+    write_ply_with(stream, mesh, PlyCoordinates::Double, attributes);
+    return true;
   });
 }
 

@@ -142,7 +142,6 @@ FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings
   const std::vector<Rim> rims = find_rims(mesh, rings);
   result.holes = rims.size();
   std::set<Edge> taken = edges_between(mesh, rims);
-  const std::size_t vertices = mesh.points.size();
   for (const Rim& rim : rims) {
     double area = 0.0;
     for (const Triangle& face : filling(mesh, rim, taken)) {
@@ -158,7 +157,6 @@ FilledHoles fill_holes(IndexedMesh& mesh, const std::vector<std::int32_t>& rings
     result.area += area;
     if (length > 0.0) result.widest = std::max(result.widest, 4.0 * area / length);
   }
-  result.vertices = mesh.points.size() - vertices;
   return result;
 }
 

@@ -73,7 +73,6 @@ std::size_t split_touching_vertices(IndexedMesh& mesh, const std::vector<std::in
 struct FilledHoles {
   std::size_t holes = 0;  ///< rims; none passes a vertex twice
   std::size_t faces = 0;
-  std::size_t vertices = 0;
   double area = 0.0;    ///< of the faces added, length^2
   double widest = 0.0;  ///< largest 4 area / rim: the diameter of a round hole, length
 };
