@@ -161,9 +161,7 @@ class PcdReader {
       columns += field.count;
       record_ += field.count * field.size;
     }
-    if (found != std::array<int, 3>{1, 1, 1}) {
-      reader_.fail("has no fields x, y and z, each once");
-    }
+    if (found != std::array<int, 3>{1, 1, 1}) reader_.fail("has no fields x, y and z, each once");
   }
 
   void add(const Vector3& point) {
@@ -206,11 +204,10 @@ class PcdReader {
     for (std::size_t i = 0; i < points_; ++i) {
       const char* const bytes = reader_.next(record_);
       if (bytes == nullptr) fail_cut();
-      Vector3 point;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point[static_cast<Eigen::Index>(axis)] = number_at(types_[axis], bytes + offsets_[axis]);
-      }
-      add(point);
+      const auto at = [&](std::size_t axis) {
+        return number_at(types_[axis], bytes + offsets_[axis]);
+      };
+      add({at(0), at(1), at(2)});
     }
   }
 
@@ -231,12 +228,11 @@ class PcdReader {
     const std::string data = unpacked({bytes, packed}, size);
     if (data.empty()) reader_.fail("holds packed points that are damaged");
     for (std::size_t i = 0; i < points_; ++i) {
-      Vector3 point;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        point[static_cast<Eigen::Index>(axis)] =
-            number_at(types_[axis], data.data() + points_ * offsets_[axis] + i * types_[axis].size);
-      }
-      add(point);
+      const auto at = [&](std::size_t axis) {
+        const Field& type = types_[axis];
+        return number_at(type, data.data() + points_ * offsets_[axis] + i * type.size);
+      };
+      add({at(0), at(1), at(2)});
     }
   }
 
