@@ -14,7 +14,6 @@ struct Groups {
 
   const std::int32_t* begin(std::size_t group) const { return items.data() + starts[group]; }
   const std::int32_t* end(std::size_t group) const { return items.data() + starts[group + 1]; }
-  std::size_t size(std::size_t group) const { return starts[group + 1] - starts[group]; }
 };
 
 /// Sorts the items 0 to count - 1 into `groups` groups by counting, in time linear in both.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "wscvt/base/counting_sort.h"
 
@@ -11,20 +12,11 @@ namespace wscvt {
 
 namespace {
 
-/// A half-edge among those of one lower vertex.
-struct Link {
-  std::int32_t higher;  ///< its other vertex
-  std::int32_t half_edge;
-  bool from_lower;
-
-  bool operator<(const Link& other) const {
-    return higher != other.higher ? higher < other.higher : half_edge < other.half_edge;
-  }
-};
-
+/// The higher vertex of a half-edge, and the half-edge.
+using Link = std::pair<std::int32_t, std::int32_t>;
 using Links = std::vector<Link>::const_iterator;
 
-/// Calls visit(lower vertex, first, last) with the Links of the half-edges on each edge, which are
+/// Calls visit(lower vertex, first, last) with the links of the half-edges on each edge, which are
 /// ascending. Edges of different lower vertices may be visited at the same time.
 ///
 /// Most of the time is the sort of all half-edges by their two vertices. A counting sort by the
@@ -44,14 +36,12 @@ void visit_edges(const std::vector<Triangle>& triangles, std::size_t vertices,
     for (std::size_t v = begin; v < end; ++v) {
       bucket.clear();
       for (auto h = buckets.begin(v); h != buckets.end(v); ++h) {
-        const std::int32_t from = origin_of(triangles, *h);
-        const std::int32_t to = target_of(triangles, *h);
-        bucket.push_back({std::max(from, to), *h, from <= to});
+        bucket.emplace_back(std::max(origin_of(triangles, *h), target_of(triangles, *h)), *h);
       }
       std::sort(bucket.begin(), bucket.end());
       for (Links first = bucket.begin(); first != bucket.end();) {
         Links last = first + 1;
-        while (last != bucket.end() && last->higher == first->higher) ++last;
+        while (last != bucket.end() && last->first == first->first) ++last;
         visit(v, first, last);
         first = last;
       }
@@ -72,11 +62,14 @@ HalfEdges link_half_edges(const std::vector<Triangle>& triangles, std::size_t ve
   }
   visit_edges(triangles, vertices, execution, [&](std::size_t lower, Links first, Links last) {
     // The highest of each direction; a loop is its own opposite.
+    const auto way_of = [&](std::int32_t h) {
+      return index(origin_of(triangles, h)) == lower ? std::size_t{0} : std::size_t{1};
+    };
     std::array<std::int32_t, 2> highest = {-1, -1};
-    for (Links at = first; at != last; ++at) highest[at->from_lower ? 0 : 1] = at->half_edge;
-    const bool is_loop = index(first->higher) == lower;
+    for (Links at = first; at != last; ++at) highest[way_of(at->second)] = at->second;
+    const bool is_loop = index(first->first) == lower;
     for (Links at = first; at != last; ++at) {
-      result.opposite[index(at->half_edge)] = highest[at->from_lower && !is_loop ? 1 : 0];
+      result.opposite[index(at->second)] = highest[is_loop ? 0 : 1 - way_of(at->second)];
     }
   });
   return result;
@@ -131,7 +124,7 @@ std::vector<std::int32_t> edge_rings(const IndexedMesh& mesh, const Execution& e
   visit_edges(mesh.triangles, mesh.points.size(), execution,
               [&](std::size_t /*lower*/, Links first, Links last) {
                 for (Links at = first; at != last; ++at) {
-                  rings[index(at->half_edge)] = (at + 1 == last ? first : at + 1)->half_edge;
+                  rings[index(at->second)] = (at + 1 == last ? first : at + 1)->second;
                 }
               });
   return rings;

@@ -60,11 +60,16 @@ Cell cell_at(const Eigen::Array3d& position) {
 }  // namespace
 
 Box box_of_faces(const IndexedMesh& mesh) {
-  Box box;
+  if (mesh.triangles.empty()) return {};
+  Vector3 low = mesh.points[index(mesh.triangles[0][0])];
+  Vector3 high = low;
   for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) box.extend(mesh.points[index(v)]);
+    for (const std::int32_t v : t) {
+      low = low.cwiseMin(mesh.points[index(v)]);
+      high = high.cwiseMax(mesh.points[index(v)]);
+    }
   }
-  return box;
+  return {low, high};
 }
 
 // A hash table of the kept points, with open addressing; the key is the cube of a point. The slow
