@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "wscvt/base/half_edges.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -108,11 +107,10 @@ bool has_voxel_steps(const IndexedMesh& mesh) {
   // Other meshes return at one of their first faces.
   std::array<std::vector<double>, 3> places;
   for (const Triangle& t : mesh.triangles) {
-    const Vector3& corner = mesh.points[index(t[0])];
-    const Eigen::Index axis =
-        axis_across(corner, mesh.points[index(t[1])], mesh.points[index(t[2])]);
+    const auto [a, b, c] = corners_of(mesh, t);
+    const Eigen::Index axis = axis_across(a, b, c);
     if (axis == -1) return false;
-    if (axis >= 0) places[static_cast<std::size_t>(axis)].push_back(corner[axis]);
+    if (axis >= 0) places[static_cast<std::size_t>(axis)].push_back(a[axis]);
   }
   constexpr std::size_t fewest_planes = 4;
   constexpr std::size_t fewest_in_all = 18;
