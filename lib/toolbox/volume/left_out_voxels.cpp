@@ -282,7 +282,11 @@ ContainerWall wall_in(const Views& views, const std::vector<std::uint8_t>& mask,
       distances_to_zero(views.rest, views.counts, {spacing[0], spacing[1], spacing[2]}, execution);
   const double length = spacing.maxCoeff();
   const std::size_t end = end_of_wall(shares_by_distance(views, mask, counts, distances, length));
-  if (end == 0) return {};
+  // A liquid or a resin that fills a part of the volume is thicker than a wall.
+  constexpr double thickest = 1.0 / 3.0;  // of the volume
+  const double extent =
+      std::min({counts[0] * spacing[0], counts[1] * spacing[1], counts[2] * spacing[2]});
+  if (end == 0 || static_cast<double>(end) * length > thickest * extent) return {};
   ContainerWall wall;
   wall.marks.assign(mask.size(), 0);
   std::uint64_t material = 0;

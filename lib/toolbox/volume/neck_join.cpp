@@ -135,17 +135,18 @@ void join_cut_off(std::vector<std::uint32_t>& labels, const std::vector<std::uin
 
 }  // namespace
 
-void join_wide_necks(std::vector<std::uint32_t>& labels,
-                     const std::vector<std::uint16_t>& distances, const VoxelCounts& counts,
-                     double neck) {
-  if (labels.empty()) return;
+std::vector<GrainNeck> join_wide_necks(std::vector<std::uint32_t>& labels,
+                                       const std::vector<std::uint16_t>& distances,
+                                       const VoxelCounts& counts, double neck) {
+  if (labels.empty()) return {};
   const std::size_t count = *std::max_element(labels.begin(), labels.end()) + std::size_t{1};
   std::vector<std::uint16_t> radii(count, 0);
   for (std::size_t k = 0; k < labels.size(); ++k) {
     radii[labels[k]] = std::max(radii[labels[k]], distances[k]);
   }
   boost::disjoint_sets_with_storage<> grains(count);
-  for (const Neck& one : necks_of(labels, distances, counts)) {
+  const std::vector<Neck> necks = necks_of(labels, distances, counts);
+  for (const Neck& one : necks) {
     const std::size_t a = grains.find_set(one.one);
     const std::size_t b = grains.find_set(one.other);
     if (a == b || !(one.distance > neck * std::min(radii[a], radii[b]))) continue;
@@ -153,7 +154,23 @@ void join_wide_necks(std::vector<std::uint32_t>& labels,
     grains.link(a, b);
     radii[grains.find_set(a)] = radius;
   }
-  for (std::uint32_t& label : labels) label = static_cast<std::uint32_t>(grains.find_set(label));
+  std::vector<GrainNeck> found(count);
+  for (std::uint32_t& label : labels) {
+    label = static_cast<std::uint32_t>(grains.find_set(label));
+    if (label != 0) ++found[label].voxels;
+  }
+  for (const Neck& one : necks) {
+    std::size_t small = grains.find_set(one.one);
+    std::size_t large = grains.find_set(one.other);
+    if (small == large) continue;
+    if (radii[small] > radii[large]) std::swap(small, large);
+    found[small].neck =
+        std::max(found[small].neck, static_cast<double>(one.distance) / radii[small]);
+  }
+  found.erase(std::remove_if(found.begin(), found.end(),
+                             [](const GrainNeck& grain) { return grain.voxels == 0; }),
+              found.end());
+  return found;
 }
 
 void straighten_walls(std::vector<std::uint32_t>& labels,

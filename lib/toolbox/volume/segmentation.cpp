@@ -53,7 +53,8 @@ struct GreyRange {
   /// Range of all values but a thousandth at each end, widened by a quarter of it at both ends.
   float lower = 0.0F;
   float upper = 0.0F;
-  double equal_neighbours = 0.0;  ///< fraction of equal neighbours along x
+  double equal_neighbours = 0.0;             ///< fraction of equal neighbours along x
+  std::vector<std::size_t> constant_slices;  ///< along z, those of one value
 };
 
 /// `outside`: 1 for voxels that were not scanned, which are ignored; empty: none.
@@ -64,7 +65,16 @@ GreyRange range_of(LabelVolume& volume, const std::vector<std::uint8_t>& outside
   std::uint64_t count = 0;
   std::uint64_t equal = 0;
   std::size_t voxel = 0;
-  for_each_row(volume, execution, reading_stage, [&](const std::vector<Label>& row) {
+  Label slice_code = 0;
+  bool is_constant = false;
+  for_each_row(volume, execution, reading_stage, [&](const std::vector<Label>& row, int y, int z) {
+    if (y == 0) slice_code = row.front();
+    is_constant = (y == 0 || is_constant) && std::all_of(row.begin(), row.end(), [&](Label code) {
+                    return code == slice_code;
+                  });
+    if (is_constant && y + 1 == volume.geometry().counts[1]) {
+      range.constant_slices.push_back(static_cast<std::size_t>(z));
+    }
     float before = std::numeric_limits<float>::quiet_NaN();
     for (const Label code : row) {
       const float value = grey_value(code);
@@ -577,10 +587,13 @@ std::vector<char> labels_beside(LabelVolume& labels, const std::vector<std::uint
 /// Returns the parts of a mask, with touching parts separated.
 std::unique_ptr<LabelVolume> parts_of_mask(std::vector<std::uint8_t> mask,
                                            const VolumeGeometry& geometry, double neck,
-                                           const Execution& execution) {
+                                           const Execution& execution,
+                                           std::vector<GrainNeck>* necks = nullptr) {
   Basins basins = fine_basins(mask, geometry, execution.part(0.0, 0.8));
   mask = {};
-  join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
+  std::vector<GrainNeck> found =
+      join_wide_necks(basins.labels, basins.distances, geometry.counts, neck);
+  if (necks != nullptr) *necks = std::move(found);
   if (basins.step > 0.0) {
     straighten_walls(basins.labels, basins.distances, geometry.counts,
                      geometry.axes.colwise().norm().transpose() / basins.step,
@@ -710,6 +723,48 @@ double islands_of(const std::vector<std::uint8_t>& mask, const VoxelCounts& coun
                     execution.parallel_sum(mask.size() / width, 64, std::int64_t{0}, in_rows));
 }
 
+/// Returns those of the slices of one grey value at which grains end that go on behind them, as
+/// where slices were lost.
+std::vector<std::size_t> cutting_slices(const std::vector<std::uint8_t>& mask,
+                                        const std::vector<std::size_t>& constant,
+                                        const VoxelCounts& counts) {
+  const VoxelGrid grid(counts);
+  std::vector<std::size_t> cutting;
+  for (std::size_t first = 0, last = 0; first < constant.size(); first = last + 1) {
+    last = first;
+    while (last + 1 < constant.size() && constant[last + 1] == constant[last] + 1) ++last;
+    if (constant[first] == 0 || constant[last] + 1 == grid.sizes[2]) continue;
+    const auto* const before = &mask[(constant[first] - 1) * grid.steps[2]];
+    const auto* const behind = &mask[(constant[last] + 1) * grid.steps[2]];
+    for (std::size_t k = first; k <= last; ++k) {
+      const auto* const slice = &mask[constant[k] * grid.steps[2]];
+      std::size_t goes_on = 0;
+      std::size_t ends = 0;
+      for (std::size_t i = 0; i < grid.steps[2]; ++i) {
+        if (before[i] == 0 || behind[i] == 0) continue;
+        ++goes_on;
+        ends += slice[i] == 0 ? 1 : 0;
+      }
+      if (2 * ends > goes_on) cutting.push_back(constant[k]);
+    }
+  }
+  return cutting;
+}
+
+/// Returns the fraction of the grains of at least `smallest` voxels that touch a larger one over a
+/// neck which is nearly as wide as themselves.
+double wide_neck_fraction(const std::vector<GrainNeck>& necks, std::int64_t smallest) {
+  constexpr double wide = 0.7;
+  std::size_t all = 0;
+  std::size_t found = 0;
+  for (const GrainNeck& grain : necks) {
+    if (grain.voxels < static_cast<std::uint64_t>(smallest)) continue;
+    ++all;
+    found += grain.neck > wide ? 1 : 0;
+  }
+  return all == 0 ? 0.0 : static_cast<double>(found) / static_cast<double>(all);
+}
+
 Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
                        const Execution& execution) {
   if (options.threshold) require_in_range(*options.threshold, threshold_option);
@@ -743,8 +798,13 @@ Segmentation segmented(LabelVolume& scan, const SegmentationOptions& options,
   fill_holes(mask, geometry.counts, execution.part(0.4, 0.5));
   result.filled = material_count(mask) - open;
   const double islands = islands_of(mask, geometry.counts, execution.part(0.5, 0.5));
+  if (!result.is_mask) {
+    result.cutting_slices = cutting_slices(mask, range.constant_slices, geometry.counts);
+  }
+  std::vector<GrainNeck> necks;
   result.labels =
-      parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95));
+      parts_of_mask(std::move(mask), geometry, options.separate, execution.part(0.5, 0.95), &necks);
+  result.wide_neck_fraction = wide_neck_fraction(necks, options.smallest);
   const std::vector<char> cut = labels_beside(*result.labels, outside, execution.part(0.95, 0.97));
   drop_small(result, options.smallest, cut, execution.part(0.97, 1.0));
   double slices = 0.0;

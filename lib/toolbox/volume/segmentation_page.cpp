@@ -307,6 +307,63 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
   }
 }
 
+/// The grey values of the peaks, as "3 peaks, at 40, 100 and 190".
+std::string peaks_text(const std::vector<double>& peaks) {
+  std::string text = std::to_string(peaks.size()) + " peaks, at ";
+  for (std::size_t k = 0; k < peaks.size(); ++k) {
+    text += (k == 0 ? "" : k + 1 == peaks.size() ? " and " : ", ") + format_number(peaks[k], 4);
+  }
+  return text;
+}
+
+/// Adds a doubt on material that fills the volume around holes.
+void add_inverted(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  const std::string holes = "The material fills the volume, with holes of " +
+                            format_percent(share_of(segmentation.filled, segmentation.material)) +
+                            " of it";
+  const bool is_dark = segmentation.is_dark;
+  // A resin with bubbles lies between the grains' grey value and that of the bubbles.
+  if (segmentation.peaks.size() > 2 && !segmentation.is_chosen) {
+    doubts.push_back(holes + ", and the grey values have " + peaks_text(segmentation.peaks) +
+                     ". If the grains are only the " + (is_dark ? "darkest" : "brightest") +
+                     ", give " + mention("phases", "1") + ". If they are the holes, " +
+                     (is_dark ? "leave " + mention("dark", "true") + " out."
+                              : "give " + mention("dark", "true") + "."));
+    return;
+  }
+  doubts.push_back(holes + ": the grains seem to be " +
+                   (is_dark ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
+                            : "darker than the rest. Give " + mention("dark", "true") + "."));
+}
+
+/// Adds a doubt on where grains end.
+void add_ends(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  const std::vector<std::size_t>& lost = segmentation.cutting_slices;
+  if (!lost.empty()) {
+    std::vector<std::string> numbers;
+    for (const std::size_t slice : lost) numbers.push_back(std::to_string(slice));
+    constexpr std::size_t most = 6;
+    doubts.push_back(format_count(lost.size(), "slice has", "slices have") +
+                     " one grey value, so that grains end there, as at slices that were lost: " +
+                     listed(numbers, most) +
+                     ", counted from 0. Replace each by a copy of its neighbour, in Python "
+                     "scan[" +
+                     numbers.front() + "] = scan[" + std::to_string(lost.front() - 1) + "].");
+  }
+  constexpr double many = 0.3;
+  if (segmentation.wide_neck_fraction > many) {
+    doubts.push_back(
+        format_percent(segmentation.wide_neck_fraction) +
+        " of the grains touch a larger one over a neck nearly as wide as themselves: they may be "
+        "pieces of porous grains, or grains that cement joins. Look at the slices. Close pores in "
+        "Python by scipy.ndimage.grey_" +
+        (segmentation.is_dark ? "opening" : "closing") +
+        "(scipy.ndimage.median_filter(scan, 3), SIZE), with a SIZE just above the width of a pore "
+        "in voxels. A smaller " +
+        mention("separate") + " joins pieces, a larger one parts grains.");
+  }
+}
+
 /// Adds a doubt on the grey values of void and material.
 void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<Sentence>& doubts) {
   const bool is_uneven = !is_inverted && segmentation.brightest_space > segmentation.darkest_space;
@@ -336,14 +393,7 @@ void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<S
                      " if the outlines are wrong. Beam hardening is corrected in the "
                      "reconstruction.");
   } else if (peaks > 2) {
-    std::string values;
-    for (std::size_t k = 0; k < peaks; ++k) {
-      values += (k == 0           ? ""
-                 : k + 1 == peaks ? " and "
-                                  : ", ") +
-                format_number(segmentation.peaks[k], 4);
-    }
-    doubts.push_back("The grey values have " + std::to_string(peaks) + " peaks, at " + values +
+    doubts.push_back("The grey values have " + peaks_text(segmentation.peaks) +
                      ", as of several minerals. The material is all " +
                      (segmentation.is_dark ? "up to " : "from ") +
                      format_number(segmentation.threshold, 4) +
@@ -368,17 +418,11 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   const bool is_inverted =
       segmentation.filled > 0 &&
       share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
-  if (is_inverted) {
-    doubts.push_back("The material fills the volume, with holes of " +
-                     format_percent(share_of(segmentation.filled, segmentation.material)) +
-                     " of it: the grains seem to be " +
-                     (segmentation.is_dark
-                          ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
-                          : "darker than the rest. Give " + mention("dark", "true") + "."));
-  }
+  if (is_inverted) add_inverted(segmentation, doubts);
   // The space between loose grains has -.3 to -.7, dense grains in contact +.1 and more.
   constexpr double least_fraction = -0.2;
-  if (!is_inverted && segmentation.island_fraction < least_fraction) {
+  const bool is_space = !is_inverted && segmentation.island_fraction < least_fraction;
+  if (is_space) {
     doubts.push_back(
         "In slices the material has more holes than islands, as the space between grains has. If "
         "the grains are " +
@@ -395,6 +439,7 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
                      mention("threshold") + ".");
   }
   add_left_out(segmentation, doubts);
+  if (!is_inverted && !is_space) add_ends(segmentation, doubts);
   if (share_of(segmentation.dropped, segmentation.material) > much) {
     doubts.push_back(format_percent(share_of(segmentation.dropped, segmentation.material)) +
                      " of the material is in parts that are too small, red in the slices: noise, "

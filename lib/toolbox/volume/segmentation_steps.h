@@ -229,14 +229,21 @@ struct EvenContrast {
 EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
                            Basins basins, Phases phases);
 
+/// A grain after wide necks were joined.
+struct GrainNeck {
+  std::uint64_t voxels = 0;
+  double neck = 0.0;  ///< widest one to a grain of a larger radius, in its own inscribed radius
+};
+
 /// Joins parts of grains that a watershed has cut. `labels`: of basins, from 1, and 0 for void, x
 /// fastest; changed to one label for the parts joined. `distances`: from each voxel to the
 /// void, in any unit. The neck of two basins that touch by faces of voxels is the largest distance
 /// at their common border. They are one grain if it is larger than `neck` times the inscribed
-/// radius, the largest distance, of the smaller one. Wide necks are joined first.
-void join_wide_necks(std::vector<std::uint32_t>& labels,
-                     const std::vector<std::uint16_t>& distances, const VoxelCounts& counts,
-                     double neck);
+/// radius, the largest distance, of the smaller one. Wide necks are joined first. Returns the
+/// grains.
+std::vector<GrainNeck> join_wide_necks(std::vector<std::uint32_t>& labels,
+                                       const std::vector<std::uint16_t>& distances,
+                                       const VoxelCounts& counts, double neck);
 
 /// Moves the walls of touching grains to where the balls inscribed in both sides meet: gives each
 /// voxel the label of the ball, around any voxel and up to the void, in which it is deepest, by the
