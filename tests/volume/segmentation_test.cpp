@@ -1121,6 +1121,30 @@ TEST_F(SegmentationOfAFile, PiecesOfPorousGrainsAreToldAndClosingThePoresWorks) 
   EXPECT_FALSE(is_told());
 }
 
+// The far side of a bar of 7 voxels is no darker inside.
+TEST_F(SegmentationOfAFile, ThinGrainsHaveNoLayer) {
+  made_ = MadeVolume({60, 50, 48});
+  std::mt19937_64 engine(test::announced(3));
+  std::normal_distribution<double> noise(0.0, 60.0);
+  const auto part = [](double away, double half) {
+    return 0.5 * std::erfc((std::abs(away) - half) / (std::sqrt(2.0) * 0.8));
+  };
+  for (std::int32_t z = 0; z < 48; ++z) {
+    for (std::int32_t y = 0; y < 50; ++y) {
+      for (std::int32_t x = 0; x < 60; ++x) {
+        const double across = part(std::fmod(y, 12.3) - 6.1, 3.5);
+        const double up = part(std::fmod(z, 11.8) - 5.9, 3.5);
+        const double grey = 600.0 + 1100.0 * part(x - 30.2, 24.0) * across * up;
+        made_.at(x, y, z) = static_cast<Label>(std::max(0.0, grey + noise(engine)));
+      }
+    }
+  }
+  write_made();
+  const Segmentation found = segmented();
+  EXPECT_EQ(found.grains.size(), 16U);
+  EXPECT_TRUE(found.steps.empty());
+}
+
 TEST_F(SegmentationOfAFile, NecksAreMeasuredInTheSmallerGrainsRadius) {
   // Balls of radius 9 and 7 whose surfaces cross in a circle of radius 5.6, .8 of 7.
   const double radius = 5.6;

@@ -133,8 +133,9 @@ class EdgeLines {
       const int place = at[axis] + direction * away;
       return place >= 0 && place < size;
     };
-    for (int away = 1; away <= farthest && is_in(away); ++away) {
-      if ((away > 1 && label(k + away * step) != inside) || !add(away)) break;
+    // Up to the blur of the other side, which thin grains have near.
+    for (int away = 1; away <= farthest && is_in(away + 2); ++away) {
+      if (label(k + (away + 2) * step) != inside || !add(away)) break;
     }
     // Up to the blur of the next grain.
     for (int away = 0; away >= -farthest && is_in(away - 2); --away) {

@@ -118,8 +118,8 @@ struct Segmentation {
   /// below 0 of the space between them.
   double island_fraction = 0.0;
   /// Of the grains, the fraction that touches a larger one over a neck of more than .7 of their own
-  /// width (see separate_option): where they end is not certain. Below .2 in packings that are
-  /// separated rightly; about half of pieces of porous grains, or of cemented grains.
+  /// width (see separate_option): where they end is not certain. About half of pieces of porous or
+  /// thin grains, and of cemented grains.
   double wide_neck_fraction = 0.0;
   /// Slices along z, from 0, that have one grey value and cut grains: lost ones. None of a mask.
   std::vector<std::size_t> cutting_slices;
