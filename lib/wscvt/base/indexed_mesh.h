@@ -10,6 +10,7 @@
 namespace wscvt {
 
 using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
 
 /// Three indices into the points, counter-clockwise seen from outside.
 using Triangle = std::array<std::int32_t, 3>;

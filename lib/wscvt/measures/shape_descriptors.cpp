@@ -25,8 +25,6 @@ constexpr std::size_t descriptor_block = 8192;
 /// The clip of Sdq: smallest cosine between normal and radius.
 constexpr double smallest_cosine = 0.05;
 
-using Matrix3 = Eigen::Matrix3d;
-
 /// Moments of volume about a local origin up to the second, and the area. MeshSums has only the
 /// first moment.
 struct VolumeMoments {

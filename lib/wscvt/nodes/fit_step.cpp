@@ -14,8 +14,6 @@ namespace wscvt {
 
 namespace {
 
-using Matrix3 = Eigen::Matrix3d;
-
 /// A sample belongs to a node if its corner has at least this weight.
 constexpr double own_weight = 0.2;
 /// Weight of the distance of a node from the plane of its nearest sample. Without it and the leash,

@@ -11,8 +11,6 @@
 
 namespace wscvt {
 
-using Matrix3 = Eigen::Matrix3d;
-
 /// Order of the derivatives to compute.
 enum class Derivatives { None, First, Second };
 
