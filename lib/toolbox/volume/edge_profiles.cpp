@@ -301,12 +301,28 @@ std::optional<EdgeSteps> steps_of(const Profile& profile, const BestFits& best) 
   return steps;
 }
 
+/// Whether most grains have a rim at their surface, and the void beside them a rim of the other
+/// sign, at least a third as high.
+bool are_fringes(const ProfilePoints& all, const std::vector<EdgeSteps>& found, double sign,
+                 double space) {
+  constexpr double most = 0.5;
+  constexpr double outside = -0.75;  // voxels
+  double rim = 0.0;
+  for (const EdgeSteps& steps : found) {
+    if (!steps.goes_on() && steps.fraction > most) rim = sign * (steps.layer - steps.inside);
+  }
+  double beside = 0.0;
+  for (std::size_t k = 0; k < all.places.size(); ++k) {
+    if (all.places[k] < outside) beside = std::max(beside, sign * (space - all.values[k]));
+  }
+  return rim > 0.0 && 3.0 * beside > rim;
+}
+
 }  // namespace
 
-std::vector<EdgeSteps> use_layers(const LevelledVolume& volume,
-                                  const std::vector<std::uint16_t>& scan,
-                                  const std::vector<std::uint32_t>& labels, bool is_dark,
-                                  std::vector<double>& plateaus) {
+EdgeLayers use_layers(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
+                      const std::vector<std::uint32_t>& labels, bool is_dark, double space,
+                      std::vector<double>& plateaus) {
   const std::vector<Profile> profiles = EdgeLines(volume, scan, labels, is_dark).profiles();
   Profile all;
   for (const Profile& profile : profiles) all.add(profile);
@@ -315,23 +331,30 @@ std::vector<EdgeSteps> use_layers(const LevelledVolume& volume,
   const BestFits best = best_fits(points);
   const double sign = is_dark ? -1.0 : 1.0;
   std::array<Profile, 2> kinds;
+  std::vector<double> layers = plateaus;
+  std::vector<double> insides = plateaus;
   for (std::size_t label = 1; label < profiles.size(); ++label) {
     const std::optional<EdgeSteps> steps = steps_of(profiles[label], best);
     if (!steps || sign * (steps->layer - steps->space) < 0.0) continue;
     kinds[steps->goes_on() ? 0 : 1].add(profiles[label]);
-    if (!steps->goes_on()) plateaus[label] = steps->layer;
+    if (steps->goes_on()) continue;
+    layers[label] = steps->layer;
+    insides[label] = steps->inside;
   }
-  std::vector<EdgeSteps> found;
+  EdgeLayers found;
   for (const Profile& kind : kinds) {
     std::optional<EdgeSteps> steps = steps_of(kind, best);
     if (!steps) continue;
     steps->fraction = kind.size() / all.size();
-    found.push_back(*steps);
+    found.steps.push_back(*steps);
   }
+  const bool has_fringes = are_fringes(points, found.steps, sign, space);
+  plateaus = std::move(has_fringes ? insides : layers);
+  if (has_fringes) return {{}, true};
   std::optional<EdgeSteps> hidden = hidden_steps(best);
-  if (found.empty() && hidden && sign * (hidden->layer - hidden->space) > 0.0) {
+  if (found.steps.empty() && hidden && sign * (hidden->layer - hidden->space) > 0.0) {
     hidden->fraction = 1.0;
-    found.push_back(*hidden);
+    found.steps.push_back(*hidden);
   }
   return found;
 }

@@ -53,10 +53,10 @@ struct Depths {
 };
 
 /// Returns the grey value of each basin, that of a shell below its surface.
-std::vector<double> plateaus_of(const Depths& depths, const Phases& phases) {
+std::vector<double> plateaus_of(const Depths& depths, const Phases& phases, double blur) {
   // Below the blur. A bright grain's surface is about a voxel below the mask's. Of small basins the
   // shell begins at a part of their radius.
-  constexpr double begin_of_shell = 2.5;
+  const double begin_of_shell = 2.5 * std::max(1.0, blur);
   constexpr double thickness = 2.5;
   constexpr double of_radius = 0.75;
   const std::vector<std::uint32_t>& labels = depths.basins.labels;
@@ -145,11 +145,11 @@ EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::
   const std::vector<std::uint16_t>& grey = volume.grey;
   const double voxel = portable::cbrt(volume.spacing[0] * volume.spacing[1] * volume.spacing[2]);
   const Depths depths = {grey, volume.mask, basins, voxel};
-  std::vector<double> plateaus = plateaus_of(depths, phases);
+  std::vector<double> plateaus = plateaus_of(depths, phases, volume.blur);
   correct_rims(depths, phases, plateaus);
   const bool is_dark = phases.materials.front() < phases.space;
   EvenContrast result;
-  result.steps = use_layers(volume, scan, basins.labels, is_dark, plateaus);
+  result.layers = use_layers(volume, scan, basins.labels, is_dark, phases.space, plateaus);
   grow(basins.labels, volume.counts);
   phases.space = space_of(grey, volume.left_out, basins.labels, phases.space);
   result.grey.resize(grey.size());

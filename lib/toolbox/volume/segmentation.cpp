@@ -370,21 +370,20 @@ std::optional<Phases> phases_of(const std::vector<GreyPeak>& peaks, double level
 }
 
 /// Returns the material with the surface of each grain half way from its own grey value to the
-/// void, from that by one level. Sets `steps` to those across the surfaces. `unsmoothed`: returns
+/// void, from that by one level. Sets `layers` to those at the surfaces. `unsmoothed`: returns
 /// the grey values of the scan.
 template <class Unsmoothed>
 std::vector<std::uint8_t> material_of_each(const LevelledVolume& volume,
                                            const VolumeGeometry& geometry, const Phases& phases,
                                            int medians, const Unsmoothed& unsmoothed,
-                                           std::vector<EdgeSteps>& steps,
-                                           const Execution& execution) {
+                                           EdgeLayers& layers, const Execution& execution) {
   std::vector<std::uint8_t> filled = volume.mask;
   fill_holes(filled, geometry.counts, execution.part(0.0, 0.1));
   Basins basins = fine_basins(filled, geometry, execution.part(0.1, 0.85));
   filled = {};
   EvenContrast even =
       even_contrast(volume, unsmoothed(execution.part(0.85, 0.9)), std::move(basins), phases);
-  steps = std::move(even.steps);
+  layers = std::move(even.layers);
   return level_mask(even.grey, volume.left_out, geometry.counts,
                     {0.5 * even_full, even_full, false, medians}, execution.part(0.9, 1.0));
 }
@@ -544,13 +543,22 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
                                  left_out,
                                  sizes,
                                  {spacing[0], spacing[1], spacing[2]},
-                                 (result.threshold - base) / step};
+                                 (result.threshold - base) / step,
+                                 result.blur};
   // Smoothing hides thin layers. The scan is read again, because its values would add 2 bytes a
   // voxel to the watershed's memory.
+  EdgeLayers layers;
   mask = material_of_each(
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
-      result.steps, execution.part(0.55, 1.0));
+      layers, execution.part(0.55, 1.0));
+  result.steps = std::move(layers.steps);
+  result.has_fringes = layers.has_fringes;
+  if (result.has_fringes) {
+    // The rims beside grains fill the void where grains are close.
+    result.darkest_space = result.brightest_space = 0.0;
+    return mask;
+  }
   const bool has_layer =
       std::any_of(result.steps.begin(), result.steps.end(),
                   [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });

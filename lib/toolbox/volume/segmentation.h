@@ -105,6 +105,7 @@ struct Segmentation {
   double blur = 0.0;  ///< of the edges at the threshold, a standard deviation, voxels
   /// Of grains whose grey values go on beyond a layer, and of those that turn back; empty: none.
   std::vector<EdgeSteps> steps;
+  bool has_fringes = false;       ///< see EdgeLayers; then without steps
   int medians = 1;                ///< so often the grey values were smoothed; more for noise
   std::uint64_t not_scanned = 0;  ///< voxels outside of what was scanned, see not_scanned
   std::uint64_t wall = 0;         ///< voxels of the wall of a container, which is no material

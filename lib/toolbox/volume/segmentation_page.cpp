@@ -207,8 +207,8 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
     } else {
       doubts.push_back("Grains differ more from the void at their surface than inside: " + layer +
                        values +
-                       ". It may be a coat, beam hardening, phase contrast, or the grain around a "
-                       "pore. The outlines are half way from the void to the layer, as by " +
+                       ". It may be a coat, beam hardening, or the grain around a pore. The "
+                       "outlines are half way from the void to the layer, as by " +
                        between(steps.space, steps.layer) +
                        ". Of a layer of 2 voxels they are less exact: look at the slices.");
     }
@@ -237,6 +237,12 @@ bool are_of_layers(const Segmentation& segmentation) {
 
 /// Adds how much too large or too small grains come out.
 void add_biases(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
+  if (segmentation.has_fringes) {
+    doubts.push_back(
+        "Grains have a rim at their surface and the void beside them one of the other sign, as by "
+        "phase contrast or by a filter that sharpens. The outlines are half way between the void "
+        "and the inside of grains, away from both rims.");
+  }
   // A layer says more of the edges than the blur.
   if (add_steps(segmentation, doubts)) return;
   const double radius = median_radius(segmentation);
@@ -325,8 +331,9 @@ void add_inverted(const Segmentation& segmentation, std::vector<Sentence>& doubt
   // A resin with bubbles lies between the grains' grey value and that of the bubbles.
   if (segmentation.peaks.size() > 2 && !segmentation.is_chosen) {
     doubts.push_back(holes + ", and the grey values have " + peaks_text(segmentation.peaks) +
-                     ". If the grains are only the " + (is_dark ? "darkest" : "brightest") +
-                     ", give " + mention("phases", "1") + ". If they are the holes, " +
+                     ". If only the " + (is_dark ? "darkest" : "brightest") +
+                     " are grains, give their number, such as " + mention("phases", "1") +
+                     ". If they are the holes, " +
                      (is_dark ? "leave " + mention("dark", "true") + " out."
                               : "give " + mention("dark", "true") + "."));
     return;
@@ -399,9 +406,9 @@ void add_peaks(const Segmentation& segmentation, bool is_inverted, std::vector<S
                      ", as of several minerals. The material is all " +
                      (segmentation.is_dark ? "up to " : "from ") +
                      format_number(segmentation.threshold, 4) +
-                     (segmentation.is_dark ? "" : " on") + ". If the grains are only the " +
-                     (segmentation.is_dark ? "darkest, give " : "brightest, give ") +
-                     mention("phases", "1") + ".");
+                     (segmentation.is_dark ? "" : " on") + ". If only the " +
+                     (segmentation.is_dark ? "darkest" : "brightest") +
+                     " are grains, give their number, such as " + mention("phases", "1") + ".");
   }
 }
 

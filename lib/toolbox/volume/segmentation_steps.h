@@ -186,18 +186,25 @@ struct LevelledVolume {
   VoxelCounts counts;
   std::array<double, 3> spacing;  ///< edges of a voxel
   double level = 0.0;
+  double blur = 0.0;  ///< of the edges, a standard deviation, voxels
+};
+
+/// What the grey values across the surface of grains have.
+struct EdgeLayers {
+  /// Steps of all grains that go on, and of all that turn back, as they are on the average.
+  std::vector<EdgeSteps> steps;
+  bool has_fringes = false;  ///< of phase contrast, or of a filter that sharpens
 };
 
 /// Fits one and two blurred steps to the mean grey values along lines across the surface of each
 /// grain, from 5 voxels outside to 6 inside. Sets the `plateaus` of grains that turn back below an
-/// outer layer to that of the layer. Returns the steps of all grains that go on, and of all that
-/// turn back, as they are on the average; grey values as in `scan`, which is not smoothed.
-/// `labels`: of the grains, 0 between them; `plateaus`: one for each label; `is_dark`: the material
-/// is darker than the void.
-std::vector<EdgeSteps> use_layers(const LevelledVolume& volume,
-                                  const std::vector<std::uint16_t>& scan,
-                                  const std::vector<std::uint32_t>& labels, bool is_dark,
-                                  std::vector<double>& plateaus);
+/// outer layer to that of the layer. But if the void beside most grains turns back too, beyond
+/// `space`, both are fringes: there is no layer, and the surface is between void and inside. Grey
+/// values as in `scan`, which is not smoothed. `labels`: of the grains, 0 between them; `plateaus`:
+/// one for each label; `is_dark`: the material is darker than the void.
+EdgeLayers use_layers(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
+                      const std::vector<std::uint32_t>& labels, bool is_dark, double space,
+                      std::vector<double>& plateaus);
 
 /// Grey values of the void and of the phases of material, the nearest to the void first. All are
 /// brighter than the void, or all darker.
@@ -211,9 +218,7 @@ inline constexpr std::uint16_t even_full = 1000;
 
 struct EvenContrast {
   std::vector<std::uint16_t> grey;
-  /// The means of grains with two steps, those that go on and those that turn back, if there are
-  /// such.
-  std::vector<EdgeSteps> steps;
+  EdgeLayers layers;
 };
 
 /// Returns grey values in which the void is 0 and each grain is `even_full`, so that the surface of
