@@ -65,10 +65,10 @@ RealGrain real_grain(const py::handle& grain) {
 std::vector<SampleGrain> sample_of_grains(std::vector<RealGrain>& grains, const SampleGrids& grids,
                                           const Execution& execution) {
   std::vector<SampleGrain> sample(grains.size());
-  execution.parallel_for(grains.size(), 1, [&](std::size_t begin, std::size_t) {
+  execution.parallel_for_each(grains.size(), 1, [&](std::size_t k) {
     const Execution one_thread(1);
-    RealGrain& grain = grains[begin];
-    sample[begin] =
+    RealGrain& grain = grains[k];
+    sample[k] =
         grain.coefficients.empty()
             ? sample_grain(check_mesh(std::move(grain.mesh), MeshCheckOptions(), one_thread).mesh,
                            grids, one_thread)

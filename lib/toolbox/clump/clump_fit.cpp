@@ -85,10 +85,8 @@ std::vector<Sphere> medial_spheres(const std::vector<SurfaceSample>& samples, st
   constexpr std::size_t block = 32;
   const PointBlocks blocks(points_of(samples));
   std::vector<Sphere> spheres((samples.size() + step - 1) / step);
-  execution.parallel_for(spheres.size(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      spheres[i] = shrunk(samples[i * step], blocks, largest);
-    }
+  execution.parallel_for_each(spheres.size(), block, [&](std::size_t i) {
+    spheres[i] = shrunk(samples[i * step], blocks, largest);
   });
   return spheres;
 }
@@ -260,9 +258,7 @@ class Growth {
     if (all) {
       gains_.resize(candidates_.size());
       next_judging_ = count + 1 + count / 64;
-      execution_.parallel_for(candidates_.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) judge(i);
-      });
+      execution_.parallel_for_each(candidates_.size(), 256, [&](std::size_t i) { judge(i); });
     }
     std::vector<char> is_judged(candidates_.size(), all ? 1 : 0);
     std::size_t best = 0;
@@ -371,17 +367,13 @@ UnionDistance union_distance(const std::vector<Vector3>& points, const std::vect
     }
   };
   const Sums sums =
-      execution.parallel_sum(points.size(), block, Sums(), [&](std::size_t begin, std::size_t end) {
-        Sums part;
-        for (std::size_t i = begin; i < end; ++i) {
-          double least = spheres.front().distance(points[i]);
-          for (const Sphere& sphere : spheres) {
-            least = std::min(least, sphere.distance(points[i]));
-          }
-          part.squares += least * least;
-          part.largest = std::max(part.largest, std::abs(least));
+      execution.parallel_sum_of(points.size(), block, Sums(), [&](std::size_t i, Sums& part) {
+        double least = spheres.front().distance(points[i]);
+        for (const Sphere& sphere : spheres) {
+          least = std::min(least, sphere.distance(points[i]));
         }
-        return part;
+        part.squares += least * least;
+        part.largest = std::max(part.largest, std::abs(least));
       });
   return {std::sqrt(sums.squares / static_cast<double>(points.size())), sums.largest};
 }

@@ -111,11 +111,9 @@ template <class Draw>
 void ContactHeights::draw_poses(const Execution& execution, const Draw& draw) {
   const std::vector<Eigen::Matrix3d> turns = random_turns(poses);
   maps_.resize(turns.size());
-  execution.parallel_for(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t pose = begin; pose < end; ++pose) {
-      HeightMap map(reach_, maps_[pose].top, maps_[pose].bottom);
-      draw(turns[pose], map);
-    }
+  execution.parallel_for_each(turns.size(), 1, [&](std::size_t pose) {
+    HeightMap map(reach_, maps_[pose].top, maps_[pose].bottom);
+    draw(turns[pose], map);
   });
 }
 
@@ -184,11 +182,9 @@ std::pair<std::size_t, std::size_t> ContactHeights::poses_of(std::size_t pair) c
 
 std::vector<double> ContactHeights::distances(const Execution& execution) const {
   std::vector<double> result(maps_.size() * (maps_.size() - 1));
-  execution.parallel_for(result.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t pair = begin; pair < end; ++pair) {
-      const auto [below, above] = poses_of(pair);
-      result[pair] = largest_sum(maps_[below].top, maps_[above].bottom);
-    }
+  execution.parallel_for_each(result.size(), 16, [&](std::size_t pair) {
+    const auto [below, above] = poses_of(pair);
+    result[pair] = largest_sum(maps_[below].top, maps_[above].bottom);
   });
   return result;
 }
@@ -198,28 +194,26 @@ std::vector<FirstTouch> ContactHeights::touches(const ContactHeights& other,
   std::vector<FirstTouch> result(maps_.size() * (maps_.size() - 1));
   constexpr std::size_t side = pixels;
   const double scale = 2.0 * reach_ / pixels;
-  execution.parallel_for(result.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t pair = begin; pair < end; ++pair) {
-      const auto [below, above] = poses_of(pair);
-      const std::vector<float>& top = maps_[below].top;
-      const std::vector<float>& bottom = other.maps_[above].bottom;
-      const float largest = largest_sum(top, bottom);
-      FirstTouch& touch = result[pair];
-      touch.distance = largest;
-      touch.touches = touch.distance > passing;
-      if (!touch.touches) continue;
-      std::size_t pixel = 0;
-      while (top[pixel] - bottom[pixel] != largest) ++pixel;
-      const auto way = [&](std::size_t place) {
-        return (static_cast<double>(place) + 0.5 - 0.5 * pixels) * scale;
-      };
-      touch.place = Vector3(way(pixel % side), way(pixel / side), top[pixel]);
-      for (const std::vector<float>* heights : {&top, &bottom}) {
-        const std::array<double, 2> slopes = slopes_at(*heights, pixel);
-        touch.normal += Vector3(-slopes[0] / scale, -slopes[1] / scale, 1.0).normalized();
-      }
-      touch.normal.normalize();
+  execution.parallel_for_each(result.size(), 16, [&](std::size_t pair) {
+    const auto [below, above] = poses_of(pair);
+    const std::vector<float>& top = maps_[below].top;
+    const std::vector<float>& bottom = other.maps_[above].bottom;
+    const float largest = largest_sum(top, bottom);
+    FirstTouch& touch = result[pair];
+    touch.distance = largest;
+    touch.touches = touch.distance > passing;
+    if (!touch.touches) return;
+    std::size_t pixel = 0;
+    while (top[pixel] - bottom[pixel] != largest) ++pixel;
+    const auto way = [&](std::size_t place) {
+      return (static_cast<double>(place) + 0.5 - 0.5 * pixels) * scale;
+    };
+    touch.place = Vector3(way(pixel % side), way(pixel / side), top[pixel]);
+    for (const std::vector<float>* heights : {&top, &bottom}) {
+      const std::array<double, 2> slopes = slopes_at(*heights, pixel);
+      touch.normal += Vector3(-slopes[0] / scale, -slopes[1] / scale, 1.0).normalized();
     }
+    touch.normal.normalize();
   });
   return result;
 }

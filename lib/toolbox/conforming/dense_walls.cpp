@@ -311,17 +311,13 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
   for (int pass = 0; pass < passes; ++pass) {
     execution.report(static_cast<double>(pass) / passes, "Smoothing the walls");
     for (const double factor : {step, back}) {
-      execution.parallel_for(
-          corners.size(), smoothing_block, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v) {
-              // A line has larger steps: it jumps where the steps of its walls meet. The line about
-              // a wall of few faces would shrink to a point.
-              const double most = places_[v] != WallPlace::Line ? 0.5 : is_short[v] ? 0.2 : 0.75;
-              const Vector3 to =
-                  walls_.points[v] + factor * (mean_at(v) - walls_.points[v]) - corners[v];
-              moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
-            }
-          });
+      execution.parallel_for_each(corners.size(), smoothing_block, [&](std::size_t v) {
+        // A line has larger steps: it jumps where the steps of its walls meet. The line about
+        // a wall of few faces would shrink to a point.
+        const double most = places_[v] != WallPlace::Line ? 0.5 : is_short[v] ? 0.2 : 0.75;
+        const Vector3 to = walls_.points[v] + factor * (mean_at(v) - walls_.points[v]) - corners[v];
+        moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
+      });
       walls_.points.swap(moved);
     }
   }

@@ -220,15 +220,12 @@ WallPoint WallRemesher::placed(std::int32_t v, const Vector3& target) const {
 void WallRemesher::relax(int times, const Execution& execution) {
   std::vector<WallPoint> moved(mesh_.vertex_count());
   for (int time = 0; time < times; ++time) {
-    execution.parallel_for(moved.size(), relaxation_block, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) {
-        const auto v = static_cast<std::int32_t>(k);
-        moved[k] = {mesh_.points[k], mesh_.anchors[k]};
-        bool is_alive = false;
-        mesh_.visit_triangles(v, [&](std::size_t) { is_alive = true; });
-        if (!is_alive || mesh_.places[k] == WallPlace::Point) continue;
-        moved[k] = placed(v, relaxed(v));
-      }
+    execution.parallel_for_each(moved.size(), relaxation_block, [&](std::size_t k) {
+      const auto v = static_cast<std::int32_t>(k);
+      moved[k] = {mesh_.points[k], mesh_.anchors[k]};
+      bool is_alive = false;
+      mesh_.visit_triangles(v, [&](std::size_t) { is_alive = true; });
+      if (is_alive && mesh_.places[k] != WallPlace::Point) moved[k] = placed(v, relaxed(v));
     });
     for (std::size_t k = 0; k < moved.size(); ++k) {
       // A move that turns a triangle over is left out.

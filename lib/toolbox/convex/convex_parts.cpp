@@ -86,16 +86,14 @@ class Joining {
 
   void measure(std::size_t first_pair) {
     execution_.report(0.0, "Joining convex parts");
-    execution_.parallel_for(pairs_.size() - first_pair, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = first_pair + begin; k < first_pair + end; ++k) {
-        Pair& pair = pairs_[k];
-        const PieceGroup& one = groups_[pair.first];
-        const PieceGroup& two = groups_[pair.second];
-        const ConvexBody hull = common_hull(pair);
-        const double volume = one.volume + two.volume;
-        pair.cost = cost_(hull, volume) - one.cost - two.cost;
-        pair.is_convex = cost_.distance(hull) <= cost_.tolerance();
-      }
+    execution_.parallel_for_each(pairs_.size() - first_pair, 1, [&](std::size_t k) {
+      Pair& pair = pairs_[first_pair + k];
+      const PieceGroup& one = groups_[pair.first];
+      const PieceGroup& two = groups_[pair.second];
+      const ConvexBody hull = common_hull(pair);
+      const double volume = one.volume + two.volume;
+      pair.cost = cost_(hull, volume) - one.cost - two.cost;
+      pair.is_convex = cost_.distance(hull) <= cost_.tolerance();
     });
   }
 

@@ -150,9 +150,8 @@ template <class Score>
 std::vector<CutPlane> sorted_by(const std::vector<CutPlane>& planes, std::size_t wanted,
                                 const Execution& execution, const Score& score) {
   std::vector<double> scores(std::min(wanted, planes.size()));
-  execution.parallel_for(scores.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) scores[i] = score(planes[i]);
-  });
+  execution.parallel_for_each(scores.size(), 1,
+                              [&](std::size_t i) { scores[i] = score(planes[i]); });
   std::vector<std::size_t> order(scores.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

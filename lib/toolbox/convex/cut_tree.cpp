@@ -180,8 +180,8 @@ bool CutTree::move_plane(std::size_t node, double step, std::vector<PieceGroup>&
   const std::array<CutPlane, 6> planes =
       moved_planes(nodes_[node].plane, solid.points(), portable::cbrt(solid.volume()), step);
   std::array<Trial, 6> trials;
-  execution.parallel_for(planes.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) trials[k] = trial(node, planes[k], groups, group_of);
+  execution.parallel_for_each(planes.size(), 1, [&](std::size_t k) {
+    trials[k] = trial(node, planes[k], groups, group_of);
   });
   const auto best = std::max_element(trials.begin(), trials.end(),
                                      [](const auto& a, const auto& b) { return a.gain < b.gain; });

@@ -19,23 +19,21 @@ SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& exec
   }
   values_.resize(index(0, 0, counts_[2]));
   const auto rows = static_cast<std::size_t>(counts_[1]) * static_cast<std::size_t>(counts_[2]);
-  execution.parallel_for(rows, 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      const int j = static_cast<int>(row) % counts_[1];
-      const int k = static_cast<int>(row) / counts_[1];
-      // The first point of a row is outside the box.
-      double sign = 1.0;
-      double before = 0.0;
-      for (int i = 0; i < counts_[0]; ++i) {
-        const Vector3 point = origin_ + spacing_ * Vector3(i, j, k);
-        const double length = distance_.distance(point);
-        // Two grid neighbours on opposite sides have distances that sum to at most their spacing,
-        // but for rounding.
-        if (i > 0 && before + length <= (1.0 + 1e-9) * spacing_)
-          sign = distance_.contains(point) ? -1.0 : 1.0;
-        values_[index(i, j, k)] = sign * length;
-        before = length;
-      }
+  execution.parallel_for_each(rows, 16, [&](std::size_t row) {
+    const int j = static_cast<int>(row) % counts_[1];
+    const int k = static_cast<int>(row) / counts_[1];
+    // The first point of a row is outside the box.
+    double sign = 1.0;
+    double before = 0.0;
+    for (int i = 0; i < counts_[0]; ++i) {
+      const Vector3 point = origin_ + spacing_ * Vector3(i, j, k);
+      const double length = distance_.distance(point);
+      // Two grid neighbours on opposite sides have distances that sum to at most their spacing,
+      // but for rounding.
+      if (i > 0 && before + length <= (1.0 + 1e-9) * spacing_)
+        sign = distance_.contains(point) ? -1.0 : 1.0;
+      values_[index(i, j, k)] = sign * length;
+      before = length;
     }
   });
 }

@@ -133,21 +133,18 @@ DistanceGrid distance_grid(const IndexedMesh& closed, const GridOptions& options
   // One layer at a time, so that the work can be cancelled.
   for (std::size_t i = 0; i < grid.counts[0]; ++i) {
     execution.report(static_cast<double>(i) / static_cast<double>(grid.counts[0]), stage);
-    execution.parallel_for(grid.counts[1], 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t j = begin; j < end; ++j) {
-        double* const values = &grid.values[(i * grid.counts[1] + j) * row];
-        for (std::size_t k = 0; k < row; ++k) {
-          const Vector3 step(static_cast<double>(i), static_cast<double>(j),
-                             static_cast<double>(k));
-          const Vector3 point = grid.origin + grid.spacing * step;
-          const double distance = surface.distance(point);
-          // If the surface crosses the edge to the previous point, both distances sum to at most
-          // the edge. If they sum to more, both points are on one side.
-          const bool same_side =
-              k > 0 && std::abs(values[k - 1]) + distance > (1.0 + 1e-9) * grid.spacing;
-          const bool inside = same_side ? values[k - 1] < 0.0 : surface.contains(point);
-          values[k] = inside ? -distance : distance;
-        }
+    execution.parallel_for_each(grid.counts[1], 1, [&](std::size_t j) {
+      double* const values = &grid.values[(i * grid.counts[1] + j) * row];
+      for (std::size_t k = 0; k < row; ++k) {
+        const Vector3 step(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+        const Vector3 point = grid.origin + grid.spacing * step;
+        const double distance = surface.distance(point);
+        // If the surface crosses the edge to the previous point, both distances sum to at most
+        // the edge. If they sum to more, both points are on one side.
+        const bool same_side =
+            k > 0 && std::abs(values[k - 1]) + distance > (1.0 + 1e-9) * grid.spacing;
+        const bool inside = same_side ? values[k - 1] < 0.0 : surface.contains(point);
+        values[k] = inside ? -distance : distance;
       }
     });
   }

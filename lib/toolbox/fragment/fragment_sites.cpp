@@ -182,15 +182,13 @@ class SiteFit {
   }
 
   void assign() {
-    execution_.parallel_for(points_.size(), 256, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t p = begin; p < end; ++p) {
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t k = 0; k < sites_.size(); ++k) {
-          const double distance = (points_[p] - sites_[k].point).squaredNorm() - sites_[k].weight;
-          if (!(distance < least)) continue;
-          least = distance;
-          owners_[p] = k;
-        }
+    execution_.parallel_for_each(points_.size(), 256, [&](std::size_t p) {
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < sites_.size(); ++k) {
+        const double distance = (points_[p] - sites_[k].point).squaredNorm() - sites_[k].weight;
+        if (!(distance < least)) continue;
+        least = distance;
+        owners_[p] = k;
       }
     });
   }

@@ -185,9 +185,8 @@ void measure_fragments(Fragments& fragments, const Execution& execution) {
     fragments.list[wall.first].wall_area += wall.area;
     fragments.list[wall.second].wall_area += wall.area;
   }
-  execution.parallel_for(fragments.list.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) measure(fragments.list[k]);
-  });
+  execution.parallel_for_each(fragments.list.size(), 1,
+                              [&](std::size_t k) { measure(fragments.list[k]); });
 }
 
 }  // namespace wscvt

@@ -241,12 +241,10 @@ double condition_of(const HarmonicEquations& equations, int degree, const Execut
 
 double weighted_mean(const WeightedDirections& points, const std::vector<double>& values,
                      const Execution& execution) {
-  const auto partial = [&](std::size_t begin, std::size_t end) {
-    double part = 0.0;
-    for (std::size_t i = begin; i < end; ++i) part += points.weights[i] * values[i];
-    return part;
-  };
-  return execution.parallel_sum(values.size(), equation_block, 0.0, partial) / (4.0 * pi);
+  const double sum = execution.parallel_sum_of(
+      values.size(), equation_block, 0.0,
+      [&](std::size_t i, double& part) { part += points.weights[i] * values[i]; });
+  return sum / (4.0 * pi);
 }
 
 HarmonicLeastSquares least_squares(const HarmonicEquations& equations,

@@ -60,22 +60,18 @@ MappedSurface::MappedSurface(IndexedMesh mesh, std::vector<Vector3> directions,
     }
   }
   std::vector<std::int32_t> cells(mesh_.triangles.size());
-  const double angles = execution.parallel_sum(
-      mesh_.triangles.size(), mapped_block, 0.0, [&](std::size_t begin, std::size_t end) {
-        double part = 0.0;
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh_.triangles[f];
-          const Vector3& a = directions_[t[0]];
-          const Vector3& b = directions_[t[1]];
-          const Vector3& c = directions_[t[2]];
-          if (!counter_clockwise(a, b, c)) {
-            refuse_directions("face " + std::to_string(f) + " is inverted there.");
-          }
-          part += solid_angle(a, b, c);
-          // The sum of a thin triangle's directions may be short, but it is never zero.
-          cells[f] = static_cast<std::int32_t>(cube_.cell(a + b + c));
+  const double angles = execution.parallel_sum_of(
+      mesh_.triangles.size(), mapped_block, 0.0, [&](std::size_t f, double& part) {
+        const Triangle& t = mesh_.triangles[f];
+        const Vector3& a = directions_[t[0]];
+        const Vector3& b = directions_[t[1]];
+        const Vector3& c = directions_[t[2]];
+        if (!counter_clockwise(a, b, c)) {
+          refuse_directions("face " + std::to_string(f) + " is inverted there.");
         }
-        return part;
+        part += solid_angle(a, b, c);
+        // The sum of a thin triangle's directions may be short, but it is never zero.
+        cells[f] = static_cast<std::int32_t>(cube_.cell(a + b + c));
       });
   if (!(std::abs(angles / (4.0 * pi) - 1.0) < 1e-3)) {
     refuse_directions("its faces cover the sphere " +
@@ -143,9 +139,8 @@ MeshPlace MappedSurface::locate(const Vector3& direction) const {
 std::vector<Vector3> MappedSurface::positions(const std::vector<Vector3>& directions,
                                               const Execution& execution) const {
   std::vector<Vector3> points(directions.size());
-  execution.parallel_for(points.size(), located_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) points[i] = position(locate(directions[i]));
-  });
+  execution.parallel_for_each(points.size(), located_block,
+                              [&](std::size_t i) { points[i] = position(locate(directions[i])); });
   return points;
 }
 

@@ -102,16 +102,14 @@ double GrainSearch::usual_distance(const Execution& execution) const {
   if (grains < 2) return 0.0;
   const std::size_t count = std::min(grains, most_grains_of_usual);
   std::vector<double> distances(count);
-  execution.parallel_for(count, 8, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t grain = i * grains / count;
-      const Eigen::VectorXd sorted = sorted_.col(grain);
-      std::vector<double> radial(places_.size());
-      for (std::size_t k = 0; k < radial.size(); ++k) {
-        radial[places_[k]] = sorted[k];
-      }
-      distances[i] = nearest(radial, grain).distance;
+  execution.parallel_for_each(count, 8, [&](std::size_t i) {
+    const std::size_t grain = i * grains / count;
+    const Eigen::VectorXd sorted = sorted_.col(grain);
+    std::vector<double> radial(places_.size());
+    for (std::size_t k = 0; k < radial.size(); ++k) {
+      radial[places_[k]] = sorted[k];
     }
+    distances[i] = nearest(radial, grain).distance;
   });
   const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(distances.begin(), middle, distances.end());

@@ -266,16 +266,14 @@ std::vector<ColumnComparison> compare_samples(const GrainSample& one, const Grai
   const Eigen::VectorXd masses = joined(one.masses, other.masses);
   std::vector<ColumnComparison> rows(pairs.size());
   std::vector<PooledColumn> columns(pairs.size());
-  execution.parallel_for(pairs.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const ColumnPair& pair = pairs[k];
-      columns[k] = PooledColumn(joined(pair.one, pair.other), masses);
-      PartingDistances by_number;
-      PartingDistances by_mass;
-      columns[k].measure(given, by_number, by_mass);
-      rows[k] = {pair.column, Distribution(pair.one).deviation(), first_lane(by_number),
-                 first_lane(by_mass)};
-    }
+  execution.parallel_for_each(pairs.size(), 1, [&](std::size_t k) {
+    const ColumnPair& pair = pairs[k];
+    columns[k] = PooledColumn(joined(pair.one, pair.other), masses);
+    PartingDistances by_number;
+    PartingDistances by_mass;
+    columns[k].measure(given, by_number, by_mass);
+    rows[k] = {pair.column, Distribution(pair.one).deviation(), first_lane(by_number),
+               first_lane(by_mass)};
   });
   test_rows(columns, of_one, all, options, execution, rows);
   return rows;

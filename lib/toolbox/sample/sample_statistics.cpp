@@ -298,12 +298,10 @@ SampleStatistics measure_sample(const GrainSample& sample, const SampleOptions& 
   const std::size_t grains = sample.grains.size();
   execution.report(0.0, "Measuring the sample");
   std::vector<Repeated> all(sample.columns.size() + 1);
-  execution.parallel_for(all.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const auto column = static_cast<Eigen::Index>(k) - 1;
-      all[k] = Repeated(k == 0 ? sample.sizes : Eigen::VectorXd(sample.values.col(column)),
-                        sample.masses, k == 0);
-    }
+  execution.parallel_for_each(all.size(), 1, [&](std::size_t k) {
+    const auto column = static_cast<Eigen::Index>(k) - 1;
+    all[k] = Repeated(k == 0 ? sample.sizes : Eigen::VectorXd(sample.values.col(column)),
+                      sample.masses, k == 0);
   });
   SampleStatistics statistics;
   statistics.repetitions = options.repetitions_for(grains, most_grains_at_full);

@@ -13,14 +13,10 @@ namespace wscvt {
 
 MeshSums mesh_sums(const std::vector<Vector3>& points, const std::vector<Triangle>& triangles,
                    const Vector3& origin, const Execution& execution) {
-  return execution.parallel_sum(
-      triangles.size(), usual_block, MeshSums(), [&](std::size_t begin, std::size_t end) {
-        MeshSums part;
-        for (std::size_t f = begin; f < end; ++f) {
-          const auto& [a, b, c] = triangles[f];
-          part.add(points[a] - origin, points[b] - origin, points[c] - origin);
-        }
-        return part;
+  return execution.parallel_sum_of(
+      triangles.size(), usual_block, MeshSums(), [&](std::size_t f, MeshSums& part) {
+        const auto& [a, b, c] = triangles[f];
+        part.add(points[a] - origin, points[b] - origin, points[c] - origin);
       });
 }
 

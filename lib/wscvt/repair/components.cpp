@@ -180,30 +180,26 @@ std::vector<char> are_inside(const IndexedMesh& mesh, const std::vector<Vector3>
   // Each block has a list of all points. Use few blocks, so that many points need no more memory
   // than a mesh.
   const std::size_t block = std::max(usual_block, (mesh.triangles.size() + 15) / 16);
-  const Windings windings = execution.parallel_sum(
+  const Windings windings = execution.parallel_sum_of(
       mesh.triangles.size(), block, Windings{std::vector<int>(points.size(), 0)},
-      [&](std::size_t begin, std::size_t end) {
-        Windings part{std::vector<int>(points.size(), 0)};
-        for (std::size_t f = begin; f < end; ++f) {
-          const Triangle& t = mesh.triangles[f];
-          const auto [a, b, c] = corners_of(mesh, t);
-          const double low = std::min({a.x(), b.x(), c.x()});
-          const double high = std::max({a.x(), b.x(), c.x()});
-          const auto from =
-              std::lower_bound(order.begin(), order.end(), low,
-                               [&](std::size_t i, double x) { return points[i].x() < x; });
-          for (auto at = from; at != order.end() && points[*at].x() <= high; ++at) {
-            const Vector3& p = points[*at];
-            int covers = 0;
-            for (std::size_t k = 0; k < 3; ++k) covers += passing(mesh, t[k], t[following(k)], p);
-            if (covers == 0) continue;
-            const Vector3 normal = doubled_area_normal(a, b, c);
-            // The face is above the point if the point is on its lower side.
-            const double side = normal.dot(p - a) * (normal.z() > 0.0 ? 1.0 : -1.0);
-            if (side < 0.0) part.of_point[*at] += covers;
-          }
+      [&](std::size_t f, Windings& part) {
+        const Triangle& t = mesh.triangles[f];
+        const auto [a, b, c] = corners_of(mesh, t);
+        const double low = std::min({a.x(), b.x(), c.x()});
+        const double high = std::max({a.x(), b.x(), c.x()});
+        const auto from =
+            std::lower_bound(order.begin(), order.end(), low,
+                             [&](std::size_t i, double x) { return points[i].x() < x; });
+        for (auto at = from; at != order.end() && points[*at].x() <= high; ++at) {
+          const Vector3& p = points[*at];
+          int covers = 0;
+          for (std::size_t k = 0; k < 3; ++k) covers += passing(mesh, t[k], t[following(k)], p);
+          if (covers == 0) continue;
+          const Vector3 normal = doubled_area_normal(a, b, c);
+          // The face is above the point if the point is on its lower side.
+          const double side = normal.dot(p - a) * (normal.z() > 0.0 ? 1.0 : -1.0);
+          if (side < 0.0) part.of_point[*at] += covers;
         }
-        return part;
       });
   std::vector<char> inside(points.size());
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = windings.of_point[i] != 0 ? 1 : 0;

@@ -223,13 +223,9 @@ void merge_seams(RingedMesh& ringed, double diagonal, const Execution& execution
 void refuse_common_walls(const IndexedMesh& mesh, const std::vector<std::int32_t>& rings,
                          const Execution& execution) {
   constexpr double largest_other = 0.05;  // of the volume; flaws of a scan enclose less
-  const std::size_t beyond_two = execution.parallel_sum(
-      rings.size(), usual_block, std::size_t{0}, [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for (std::size_t h = begin; h < end; ++h) {
-          count += index(rings[index(rings[h])]) == h ? 0 : 1;
-        }
-        return count;
+  const std::size_t beyond_two = execution.parallel_sum_of(
+      rings.size(), usual_block, std::size_t{0}, [&](std::size_t h, std::size_t& count) {
+        count += index(rings[index(rings[h])]) == h ? 0 : 1;
       });
   if (beyond_two == 0) return;  // so on nearly all scans
   const Components components = find_components(mesh, rings, execution);

@@ -15,21 +15,16 @@ namespace wscvt {
 double overhang_solid_angle(const IndexedMesh& mesh, const Vector3& centre,
                             const Execution& execution) {
   std::vector<Vector3> directions(mesh.points.size());
-  execution.parallel_for(directions.size(), usual_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      directions[i] = (mesh.points[i] - centre).normalized();
+  execution.parallel_for_each(directions.size(), usual_block, [&](std::size_t i) {
+    directions[i] = (mesh.points[i] - centre).normalized();
   });
   return execution
-      .parallel_sum(mesh.triangles.size(), usual_block, SolidAngleSums(),
-                    [&](std::size_t begin, std::size_t end) {
-                      SolidAngleSums part;
-                      for (std::size_t f = begin; f < end; ++f) {
-                        const Triangle& t = mesh.triangles[f];
-                        part.add(solid_angle(directions[index(t[0])], directions[index(t[1])],
-                                             directions[index(t[2])]));
-                      }
-                      return part;
-                    })
+      .parallel_sum_of(mesh.triangles.size(), usual_block, SolidAngleSums(),
+                       [&](std::size_t f, SolidAngleSums& part) {
+                         const Triangle& t = mesh.triangles[f];
+                         part.add(solid_angle(directions[index(t[0])], directions[index(t[1])],
+                                              directions[index(t[2])]));
+                       })
       .overhang_fraction();
 }
 
@@ -47,20 +42,16 @@ double steep_area_fraction(const IndexedMesh& mesh, const Vector3& centre,
       return *this;
     }
   };
-  const Areas areas = execution.parallel_sum(
-      mesh.triangles.size(), block_size, Areas(), [&](std::size_t begin, std::size_t end) {
-        Areas part;
-        for (std::size_t t = begin; t < end; ++t) {
-          const Vector3 a = mesh.points[mesh.triangles[t][0]] - centre;
-          const Vector3 b = mesh.points[mesh.triangles[t][1]] - centre;
-          const Vector3 c = mesh.points[mesh.triangles[t][2]] - centre;
-          const Vector3 normal = doubled_area_normal(a, b, c);
-          const double area = normal.norm();
-          const Vector3 middle = a + b + c;
-          part.all += area;
-          if (normal.dot(middle) < smallest_cosine * area * middle.norm()) part.steep += area;
-        }
-        return part;
+  const Areas areas = execution.parallel_sum_of(
+      mesh.triangles.size(), block_size, Areas(), [&](std::size_t t, Areas& part) {
+        const Vector3 a = mesh.points[mesh.triangles[t][0]] - centre;
+        const Vector3 b = mesh.points[mesh.triangles[t][1]] - centre;
+        const Vector3 c = mesh.points[mesh.triangles[t][2]] - centre;
+        const Vector3 normal = doubled_area_normal(a, b, c);
+        const double area = normal.norm();
+        const Vector3 middle = a + b + c;
+        part.all += area;
+        if (normal.dot(middle) < smallest_cosine * area * middle.norm()) part.steep += area;
       });
   return areas.all > 0.0 ? areas.steep / areas.all : 0.0;
 }

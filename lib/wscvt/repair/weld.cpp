@@ -90,18 +90,16 @@ Weld find_equal_points(const std::vector<Vector3>& points, const Box& box, doubl
   constexpr std::uint32_t at_side = 1U << 31U;    // equal points may be in the next cubes
   constexpr std::uint32_t outside = 0xFFFFFFFFU;  // not compared
   std::vector<std::uint32_t> slots(count);
-  execution.parallel_for(count, usual_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vector3& p = points[i];
-      if (!box.contains(p)) {  // also NaN, which has no cell
-        slots[i] = outside;
-        continue;
-      }
-      const Eigen::Array3d position = grid.position(p);
-      const Eigen::Array3d within = position - position.floor();
-      slots[i] = slot_of(cell_at(position));
-      if ((within.min(1.0 - within) < grid.reach).any()) slots[i] |= at_side;
+  execution.parallel_for_each(count, usual_block, [&](std::size_t i) {
+    const Vector3& p = points[i];
+    if (!box.contains(p)) {  // also NaN, which has no cell
+      slots[i] = outside;
+      return;
     }
+    const Eigen::Array3d position = grid.position(p);
+    const Eigen::Array3d within = position - position.floor();
+    slots[i] = slot_of(cell_at(position));
+    if ((within.min(1.0 - within) < grid.reach).any()) slots[i] |= at_side;
   });
 
   std::vector<std::int32_t> table(mask + 1, -1);

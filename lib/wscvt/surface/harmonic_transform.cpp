@@ -67,11 +67,11 @@ HarmonicTransform::HarmonicTransform(int degree, const std::vector<double>& cosi
     }
   }
   legendre_.resize(static_cast<std::size_t>(degree) + 1);
-  execution.parallel_for(legendre_.size(), 1, [&](std::size_t begin, std::size_t) {
-    const int m = static_cast<int>(begin);
-    legendre_[begin].resize(rows_, degree + 1 - m);
+  execution.parallel_for_each(legendre_.size(), 1, [&](std::size_t order) {
+    const int m = static_cast<int>(order);
+    legendre_[order].resize(rows_, degree + 1 - m);
     associated_legendre(degree, m, cosines.data(), sines.data(), cosines.size(),
-                        legendre_[begin].data());
+                        legendre_[order].data());
   });
 }
 
