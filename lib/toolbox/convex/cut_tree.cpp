@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -151,8 +152,7 @@ CutTree::Trial CutTree::trial(std::size_t node, const CutPlane& plane,
     moved[n] = &solid;
     if (group_of[n] != no_group) changed.push_back(group_of[n]);
   }
-  std::sort(changed.begin(), changed.end());
-  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  sort_unique(changed);
   for (const std::size_t g : changed) {
     PieceGroup group;
     group.pieces = groups[g].pieces;

@@ -7,6 +7,7 @@
 #include "toolbox/fabric/contact_lines.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -79,12 +80,6 @@ void add_line(const Slice& slice, std::size_t first, std::size_t stride, std::si
   }
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double width_of(const std::vector<Profile>& profiles) {
   // Medians: along lines that graze a surface the ends are not yet inside or outside.
   std::vector<double> inside;
@@ -96,12 +91,12 @@ double width_of(const std::vector<Profile>& profiles) {
     outside.push_back(v[profile_length - 1]);
     differences.push_back(std::abs(double{v[profile_length - 1]} - v[profile_length - 2]));
   }
-  const double grain = median_of(inside);
-  const double between = median_of(outside);
+  const double grain = upper_median(inside);
+  const double between = upper_median(outside);
   const double contrast = grain - between;
   // Most neighbours far from the edge differ by noise only. The median of the difference of two
   // normal numbers is sqrt(2) times .6745 standard deviations.
-  const double deviation = median_of(differences) / (std::sqrt(2.0) * 0.67448975 * contrast);
+  const double deviation = upper_median(differences) / (std::sqrt(2.0) * 0.67448975 * contrast);
   const double noise = deviation * deviation;
   constexpr double least_contrast = 1e-6;
   if (!(std::abs(contrast) > least_contrast * std::max(std::abs(grain), std::abs(between))) ||
@@ -123,7 +118,7 @@ double width_of(const std::vector<Profile>& profiles) {
   // Lines that graze a surface seldom have six voxels on both sides. Known blurs of .58 to 1.33
   // voxels came out at .93 of their value.
   constexpr double of_grazing = 1.07;
-  return std::max(0.0, of_grazing * median_of(integrals) * std::sqrt(0.5 * pi));
+  return std::max(0.0, of_grazing * upper_median(integrals) * std::sqrt(0.5 * pi));
 }
 
 }  // namespace

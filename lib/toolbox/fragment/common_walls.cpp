@@ -7,6 +7,7 @@
 
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/sorting.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -24,8 +25,7 @@ IndexedMesh mesh_of(const WallComplex& complex, const Groups& by_body, std::size
     mesh.triangles.push_back(corners);
     used.insert(used.end(), corners.begin(), corners.end());
   }
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  sort_unique(used);
   for (const std::int32_t v : used) mesh.points.push_back(complex.points[v]);
   for (Triangle& t : mesh.triangles) {
     for (std::int32_t& corner : t) {

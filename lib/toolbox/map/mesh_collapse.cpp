@@ -11,6 +11,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/sorting.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -307,9 +308,7 @@ class MeshCollapse::Queue {
       if (may_go(static_cast<std::int32_t>(i))) costs.push_back(choices_[i].cost);
     }
     if (costs.empty()) return 0;
-    const auto middle = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 2);
-    std::nth_element(costs.begin(), middle, costs.end());
-    const float limit = *middle;
+    const float limit = upper_median(costs);
     const std::size_t before = mesh_.alive_;
     for (std::size_t i = 0; i < choices_.size() && mesh_.alive_ > aim; ++i) {
       const auto v = static_cast<std::int32_t>(i);

@@ -7,6 +7,7 @@
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -111,9 +112,7 @@ double GrainSearch::usual_distance(const Execution& execution) const {
     }
     distances[i] = nearest(radial, grain).distance;
   });
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return upper_median(distances);
 }
 
 }  // namespace wscvt

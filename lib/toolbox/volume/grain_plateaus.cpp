@@ -8,6 +8,7 @@
 #include "toolbox/volume/segmentation.h"
 #include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -93,9 +94,7 @@ double space_of(const std::vector<std::uint16_t>& grey, const std::vector<std::u
   }
   constexpr std::size_t few = 1000;
   if (values.size() < few) return otherwise;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(values);
 }
 
 /// Gives voxels of 0 up to a few faces away from a label that label.

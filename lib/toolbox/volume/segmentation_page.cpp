@@ -13,6 +13,7 @@
 #include "toolbox/volume/segmentation_steps.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/sorting.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
@@ -166,9 +167,7 @@ double median_radius(const Segmentation& segmentation) {
   std::vector<std::uint64_t> voxels;
   for (const LabelExtent& grain : segmentation.grains) voxels.push_back(grain.voxels);
   if (voxels.empty()) return 0.0;
-  const auto middle = voxels.begin() + static_cast<std::ptrdiff_t>(voxels.size() / 2);
-  std::nth_element(voxels.begin(), middle, voxels.end());
-  return portable::cbrt(0.75 / pi * static_cast<double>(*middle));
+  return portable::cbrt(0.75 / pi * static_cast<double>(upper_median(voxels)));
 }
 
 /// Adds what two steps across the surfaces may be. Returns whether the grey values go on beyond a

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "wscvt/base/sorting.h"
+
 namespace wscvt {
 
 BoxGrid::BoxGrid(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
@@ -54,8 +56,7 @@ void BoxGrid::find(const Box& other, std::vector<std::int32_t>& found) const {
   visit(other, [&](std::int32_t box) {
     if (other.intersects(boxes_[static_cast<std::size_t>(box)])) found.push_back(box);
   });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
 }
 
 }  // namespace wscvt

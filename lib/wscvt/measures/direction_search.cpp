@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -25,8 +26,7 @@ std::vector<Vector3> extreme_points(const std::vector<Vector3>& points, int dire
     }
     extremes.push_back(farthest);
   }
-  std::sort(extremes.begin(), extremes.end());
-  extremes.erase(std::unique(extremes.begin(), extremes.end()), extremes.end());
+  sort_unique(extremes);
   std::vector<Vector3> result;
   result.reserve(extremes.size());
   for (const std::size_t i : extremes) result.push_back(points[i]);

@@ -13,6 +13,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/sorting.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/mesh_check.h"
 #include "wscvt/repair/scan_advice.h"
@@ -218,8 +219,7 @@ Loop short_loop(const IndexedMesh& mesh, const HalfEdges& links, const Execution
   for (const Loop& loop : found) {
     for (const std::int32_t h : loop.half_edges) all.push_back(origin_of(mesh.triangles, h));
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   const std::size_t most = std::max(fewest_searched, most_visited / mesh.points.size());
   Loop best = *first;
   std::vector<std::pair<double, std::int32_t>> bounds;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -16,12 +17,6 @@ namespace {
 
 /// The number of corners that are asked for the size of a mesh.
 constexpr std::size_t most_asked = 3000;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Returns the median of the distance of the vertices from their middle.
 double usual_distance(const IndexedMesh& mesh) {
@@ -34,10 +29,10 @@ double usual_distance(const IndexedMesh& mesh) {
   std::vector<double> values(asked.size());
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     for (std::size_t k = 0; k < asked.size(); ++k) values[k] = asked[k][axis];
-    middle[axis] = median(values);
+    middle[axis] = upper_median(values);
   }
   for (std::size_t k = 0; k < asked.size(); ++k) values[k] = (asked[k] - middle).norm();
-  return median(values);
+  return upper_median(values);
 }
 
 /// A vertex with the faces about its place.

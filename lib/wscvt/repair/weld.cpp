@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/sorting.h"
 
 namespace wscvt {
 
@@ -168,8 +169,7 @@ SeamWeld find_seams(const IndexedMesh& mesh, const std::vector<std::int32_t>& ri
     ++open;
   }
   if (open == 0) return result;
-  std::sort(ends.begin(), ends.end());
-  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  sort_unique(ends);
   std::vector<Vector3> points;
   for (const std::int32_t v : ends) points.push_back(mesh.points[index(v)]);
   const double tolerance = std::min(largest_share * size, 0.1 * length / static_cast<double>(open));

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "wscvt/base/box_grid.h"
+#include "wscvt/base/sorting.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -134,8 +135,7 @@ std::vector<std::int32_t> vertices_of(const std::vector<TrianglePair>& pairs,
     vertices.insert(vertices.end(), triangles[a].begin(), triangles[a].end());
     vertices.insert(vertices.end(), triangles[b].begin(), triangles[b].end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 
@@ -189,8 +189,7 @@ std::vector<std::int32_t> with_rings(const EditMesh& mesh, const std::vector<std
     for (const std::int32_t v : inner) {
       mesh.around(v, [&](std::int32_t h) { all.push_back(mesh.target(h)); });
     }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_unique(all);
   }
   return all;
 }
