@@ -16,6 +16,7 @@
 #include "log_text.h"
 #include "remesh_filter.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 #include "wscvt/measures/carried_attributes.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/remesh.h"

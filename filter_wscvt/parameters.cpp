@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 
 namespace wscvt::filter {
 
@@ -46,15 +47,6 @@ ParameterValue checked(const FilterParameter& parameter, const ParameterValue& v
 }
 
 }  // namespace
-
-std::string enumerated(const std::vector<std::string>& names, const char* before_last) {
-  std::string text;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    if (k > 0) text += k + 1 < names.size() ? ", " : before_last;
-    text += names[k];
-  }
-  return text;
-}
 
 bool holds_text(ParameterKind kind) { return kind == ParameterKind::Text || holds_file(kind); }
 

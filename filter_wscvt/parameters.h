@@ -50,9 +50,6 @@ struct FilterParameter {
 /// Parameters in the order in which a dialog shows them.
 using ParameterList = std::vector<FilterParameter>;
 
-/// "A", "A or B", "A, B or C" for " or ".
-std::string enumerated(const std::vector<std::string>& names, const char* before_last);
-
 /// Returns a label without the brackets at its end: "WSCVT-D", for short names.
 std::string short_label(std::string_view label);
 

@@ -17,6 +17,7 @@
 #include "toolbox/exchange/simulation_files.h"
 #include "work.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_result.h"
 #include "wscvt/report/report.h"
@@ -181,8 +182,7 @@ std::string repr_of(const Remesh& one) {
   if (!percent.is_none()) {
     text += "rms distance " + py::str("{:.2g} %").format(percent).cast<std::string>() + " of R, ";
   }
-  const std::size_t count = one.result.warnings.size();
-  return text + std::to_string(count) + (count == 1 ? " warning>" : " warnings>");
+  return text + format_count(one.result.warnings.size(), "warning") + ">";
 }
 
 void add_arrays(RemeshClass& type) {

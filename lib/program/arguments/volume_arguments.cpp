@@ -139,8 +139,8 @@ void print_notes(const LabelGrains& grains, const std::string& parts_advice, boo
                 std::to_string(pieces) +
                 " parts, like a mask. Only the largest part is used. The others, " + share +
                 " of the voxels, are left out."
-          : std::to_string(in_pieces) + (in_pieces == 1 ? " label of " : " labels of ") +
-                std::to_string(grains.taken().size()) + (in_pieces == 1 ? " is" : " are") +
+          : format_count(in_pieces, "label") + " of " + std::to_string(grains.taken().size()) +
+                (in_pieces == 1 ? " is" : " are") +
                 " in several parts. Only the largest part of each label is used. The others, " +
                 share + " of all voxels, are left out." +
                 (2 * in_pieces > grains.taken().size() ? " If the numbers are grey values, make "

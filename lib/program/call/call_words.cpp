@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "toolbox/job/grain_files.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -48,10 +49,7 @@ std::string meant_word(const std::string& word, const std::vector<std::string>& 
 
 [[noreturn]] void refuse_unknown(const std::string& word,
                                  const std::vector<std::string>& commands) {
-  std::string names;
-  for (const std::string& name : commands) {
-    names += (names.empty() ? "" : &name == &commands.back() ? " or " : ", ") + name;
-  }
+  const std::string names = enumerated(commands, " or ");
   if (word.empty()) refuse_call("No command is given. Give " + names + ".");
   refuse_call("There is no command \"" + word + "\". Give " + names + "." +
               meant_word(word, commands));

@@ -15,6 +15,7 @@
 #include "toolbox/sample/grain_sample.h"
 #include "toolbox/sample/sample_files.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/report/report.h"
 
 namespace wscvt::program {
@@ -55,8 +56,7 @@ void check_densities(const SampleArguments& arguments) {
   const std::size_t given = arguments.densities.size();
   if (given > 1 && given != arguments.samples.size()) {
     refuse(std::to_string(given) + " densities are given, and " +
-           std::to_string(arguments.samples.size()) +
-           (arguments.samples.size() == 1 ? " sample" : " samples") +
+           format_count(arguments.samples.size(), "sample") +
            ". Give one density, or one per sample.");
   }
 }

@@ -154,8 +154,7 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
     if (grains.walls_across + grains.lost_walls > 0)
       lines.push_back(
           "Walls between labels that do not touch: " + std::to_string(grains.walls_across) +
-          ". Labels that touch without a wall: " + std::to_string(grains.lost_walls) +
-          (grains.lost_walls == 1 ? " pair" : " pairs"));
+          ". Labels that touch without a wall: " + format_count(grains.lost_walls, "pair"));
   }
   const std::string error = format_error(100.0 * grains.volume_error);
   lines.push_back("Volumes: " +

@@ -218,8 +218,7 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
     ConformingGrain& grain = result.grains[g];
     grain.voxels = cleaned[g].voxels;
     if (grain.voxels < fewest_voxels) {
-      refuse(name + " has only " + std::to_string(grain.voxels) +
-             (grain.voxels == 1 ? " voxel" : " voxels") +
+      refuse(name + " has only " + format_count(grain.voxels, "voxel") +
              " in its largest piece. Its wall cannot be smoothed. Leave out grains of less than " +
              std::to_string(fewest_voxels) + " voxels by " + mention(smallest_option) + ".");
     }

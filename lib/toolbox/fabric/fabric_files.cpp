@@ -154,17 +154,15 @@ std::vector<std::string> fabric_lines(const Fabric& fabric) {
   std::vector<std::string> lines = {
       std::to_string(fabric.grains.size()) + " grains, " +
           std::to_string(fabric.grains.size() - fabric.whole_grains) + " of them at the border",
-      std::to_string(pairs) +
-          (pairs == 1 ? " pair of labels touches: " : " pairs of labels touch: ") +
+      format_count(pairs, "pair of labels touches: ", "pairs of labels touch: ") +
           std::to_string(fabric.contact_count) + " in contact, " +
           std::to_string(pairs - fabric.contact_count) + " with a narrow gap",
       "Projected area of the contacts " + format_number(fabric.contact_area, 4) + square +
           ", standard uncertainty " + format_number(fabric.contact_area_uncertainty, 4) + square +
           "; of all pairs as the labels have it " + format_number(raw, 4) + square};
   if (fabric.closed_count > 0) {
-    lines.push_back(std::to_string(fabric.closed_count) +
-                    (fabric.closed_count == 1 ? " wall closes on itself: its area is"
-                                              : " walls close on themselves: their area is") +
+    lines.push_back(format_count(fabric.closed_count, "wall closes on itself: its area is",
+                                 "walls close on themselves: their area is") +
                     " that of the wall, not projected, and it has no normal");
   }
   if (fabric.whole_grains > 0) {

@@ -185,8 +185,8 @@ std::string BodyGrains::stray_vertices() const {
            " Check that it belongs to the body.";
   }
   if (others == 0) return text;
-  return text + " " + std::to_string(others) +
-         (others == 1 ? " other body has such a vertex." : " other bodies have such vertices.");
+  return text + " " +
+         format_count(others, "other body has such a vertex.", "other bodies have such vertices.");
 }
 
 std::string BodyGrains::name(std::size_t grain) const { return name_of(taken_[grain]); }

@@ -32,7 +32,7 @@ void MeshGrains::want(const std::vector<std::size_t>& grains) {
 }
 
 GrainScan MeshGrains::read(std::size_t grain, bool with_pictures, const Execution& execution) {
-  if (!refused_.empty()) throw Error(ErrorCode::InvalidInput, refused_);
+  if (!refused_.empty()) refuse(refused_);
   if (!is_file()) return {bodies_.list[grain].mesh};
   MeshFile file = read_mesh_file(path_, execution);
   if (with_pictures) read_pictures(file, path_, execution);

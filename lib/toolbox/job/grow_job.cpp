@@ -172,10 +172,9 @@ std::vector<std::string> lines_of(const Growing& growing, const GrainTable& tabl
   const double by_chance =
       1.36 * std::sqrt(1.0 / static_cast<double>(real) + 1.0 / static_cast<double>(grown));
   std::vector<std::string> lines = {
-      std::to_string(grown) + (grown == 1 ? " virtual grain of " : " virtual grains of ") +
-          std::to_string(real) + " real ones (" + std::to_string(left_out) + " left out), " +
-          std::to_string(growing.job.options.donors) + " donors each, degree " +
-          std::to_string(growing.job.degree) + ", seed " +
+      format_count(grown, "virtual grain") + " of " + std::to_string(real) + " real ones (" +
+          std::to_string(left_out) + " left out), " + std::to_string(growing.job.options.donors) +
+          " donors each, degree " + std::to_string(growing.job.degree) + ", seed " +
           std::to_string(growing.job.options.seed) + ".",
       "Drawn again, because the grain was not star-shaped or intersected itself: " +
           std::to_string(redrawn) + ".",

@@ -11,6 +11,7 @@
 #include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/report/json.h"
 
 namespace wscvt {
@@ -177,8 +178,7 @@ std::vector<std::string> OlderFiles::remove_but(const std::vector<std::string>& 
     if (fs::remove(path, ignored)) ++removed;
   }
   if (removed == 0) return {};
-  return {std::to_string(removed) + (removed == 1 ? " file" : " files") +
-          " of the earlier call removed"};
+  return {format_count(removed, "file") + " of the earlier call removed"};
 }
 
 }  // namespace wscvt

@@ -12,6 +12,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/sorting.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
@@ -115,7 +116,7 @@ HalfEdges linked_sphere(const IndexedMesh& mesh, const Execution& execution) {
   // Euler: V - E + F = 2 - 2 g with E = 3 F / 2.
   if (mesh.triangles.size() + 4 != 2 * vertices) {
     const std::size_t genus = (mesh.triangles.size() + 4 - 2 * vertices) / 4;
-    refuse("The mesh has " + std::to_string(genus) + (genus == 1 ? " handle" : " handles") +
+    refuse("The mesh has " + format_count(genus, "handle") +
            ". Only a surface without handles can be mapped to the sphere. Cut and cap them first, "
            "or smooth or fill the scan where it touches itself.");
   }

@@ -14,6 +14,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/text_format.h"
 #include "wscvt/sphere/sphere_sampling.h"
 #include "wscvt/surface/self_intersections.h"
 
@@ -197,8 +198,7 @@ GrainGrower::GrainGrower(std::vector<SampleGrain> sample, const SampleGrids& gri
     : sample_(std::move(sample)), grids_(grids), options_(options) {
   require_in_range(options.donors, donors_option);
   if (sample_.size() < smallest_sample) {
-    refuse("The sample has " + std::to_string(sample_.size()) +
-           (sample_.size() == 1 ? " usable grain" : " usable grains") +
+    refuse("The sample has " + format_count(sample_.size(), "usable grain") +
            ". Growing needs at least " + std::to_string(smallest_sample) +
            ", and some hundreds for reliable distributions.");
   }

@@ -68,12 +68,11 @@ Sentence LabelGrains::none_taken() const {
   std::string why;
   Sentence advice;
   if (cut > 0) {
-    why = std::to_string(cut) + (cut == 1 ? " lies" : " lie") + " at the border";
+    why = format_count(cut, "lies", "lie") + " at the border";
     advice = mention(at_border_option);
   }
   if (small > 0) {
-    why += (cut > 0 ? " and " : "") + std::to_string(small) + (small == 1 ? " is" : " are") +
-           " too small";
+    why += (cut > 0 ? " and " : "") + format_count(small, "is", "are") + " too small";
     advice += (cut > 0 ? " or a smaller " : "a smaller ") + mention(smallest_option);
   }
   return "No label is a grain to mesh: of " + format_count(labels_.size(), "label") + " " + why +

@@ -14,6 +14,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/sorting.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/figures.h"
 #include "wscvt/report/html_document.h"
@@ -314,11 +315,9 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
 
 /// The grey values of the peaks, as "3 peaks, at 40, 100 and 190".
 std::string peaks_text(const std::vector<double>& peaks) {
-  std::string text = std::to_string(peaks.size()) + " peaks, at ";
-  for (std::size_t k = 0; k < peaks.size(); ++k) {
-    text += (k == 0 ? "" : k + 1 == peaks.size() ? " and " : ", ") + format_number(peaks[k], 4);
-  }
-  return text;
+  std::vector<std::string> values;
+  for (const double peak : peaks) values.push_back(format_number(peak, 4));
+  return std::to_string(peaks.size()) + " peaks, at " + enumerated(values, " and ");
 }
 
 /// Adds a doubt on material that fills the volume around holes.

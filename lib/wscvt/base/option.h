@@ -9,8 +9,10 @@
 #include <string_view>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
@@ -53,33 +55,23 @@ constexpr bool is_table_in_order() {
   return true;
 }
 
-/// Whether a value is in the table; a cast number may not be.
-template <class Enumeration>
-constexpr bool is_valid(Enumeration value) {
-  static_assert(is_table_in_order<Enumeration>());
-  const auto index = static_cast<long long>(value);
-  return index >= 0 && index < static_cast<long long>(std::size(enumerators<Enumeration>()));
-}
-
 /// Returns the keys as a choice: "a, b or c".
 template <class Enumeration>
 std::string keys_of() {
-  std::string text;
-  const auto& rows = enumerators<Enumeration>();
-  std::size_t left = std::size(rows);
-  for (const auto& row : rows) {
-    text.append(text.empty() ? "" : left == 1 ? " or " : ", ").append(row.key);
-    --left;
-  }
-  return text;
+  std::vector<std::string> keys;
+  for (const auto& row : enumerators<Enumeration>()) keys.emplace_back(row.key);
+  return enumerated(keys, " or ");
 }
 
-/// Throws Error(InvalidInput), naming the choices, if a value is not in the table.
+/// Throws Error(InvalidInput), naming the choices, if a value is not in the table; a cast number
+/// may not be.
 template <class Enumeration>
 void require_valid(Enumeration value) {
-  if (is_valid(value)) return;
+  static_assert(is_table_in_order<Enumeration>());
+  const auto index = static_cast<long long>(value);
+  if (index >= 0 && index < static_cast<long long>(std::size(enumerators<Enumeration>()))) return;
   refuse("Unknown " + std::string(EnumerationTable<Enumeration>::subject) + ": number " +
-         std::to_string(static_cast<long long>(value)) + ". Give " + keys_of<Enumeration>() + ".");
+         std::to_string(index) + ". Give " + keys_of<Enumeration>() + ".");
 }
 
 /// Returns the row of a value. Throws as require_valid.

@@ -68,6 +68,15 @@ std::string listed(const std::vector<std::string>& words, std::size_t most) {
   return words.size() > most ? text + ", ..." : text;
 }
 
+std::string enumerated(const std::vector<std::string>& words, const std::string& before_last) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    if (k > 0) text += k + 1 < words.size() ? ", " : before_last;
+    text += words[k];
+  }
+  return text;
+}
+
 std::string ending_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }

@@ -19,6 +19,9 @@ std::string ending_of(const std::string& path);
 /// Returns words with commas between them, and ", ..." behind `most` words.
 std::string listed(const std::vector<std::string>& words, std::size_t most = 1000000);
 
+/// Returns words as a list: "A", "A or B", "A, B or C" for " or ".
+std::string enumerated(const std::vector<std::string>& words, const std::string& before_last);
+
 /// Compares names by the values of the numbers in them, as strverscmp of GNU does: 9 comes before
 /// 10. Negative if `a` comes first, 0 if the names are equal. Names have no NUL.
 int compare_numbered(const std::string& a, const std::string& b);

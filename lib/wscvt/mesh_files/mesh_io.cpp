@@ -301,14 +301,11 @@ bool is_mesh_format(const std::string& path, MeshUse use) {
 void check_mesh_format(const std::string& path, MeshUse use) { format_of(path, use); }
 
 std::string mesh_extensions(MeshUse use) {
-  std::string text;
-  const Format* last = nullptr;
+  std::vector<std::string> extensions;
   for (const Format& format : formats) {
-    if (!is_of(format, use)) continue;
-    if (last != nullptr) text += (text.empty() ? "" : ", ") + std::string(last->extension);
-    last = &format;
+    if (is_of(format, use)) extensions.emplace_back(format.extension);
   }
-  return text + " or " + std::string(last->extension);
+  return enumerated(extensions, " or ");
 }
 
 bool is_mesh_file(const std::string& path) {

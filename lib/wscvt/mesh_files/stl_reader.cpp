@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/reader_parts.h"
 #include "wscvt/mesh_files/readers.h"
@@ -43,7 +44,7 @@ IndexedMesh read_binary(ByteReader& reader) {
   if (triangles == 0) reader.fail("holds no triangles");
   if (reader.remaining() > expected) {
     const std::uintmax_t more = reader.remaining() - expected;
-    reader.warn("has " + std::to_string(more) + (more == 1 ? " byte" : " bytes") +
+    reader.warn("has " + format_count(more, "byte") +
                 " behind its last triangle. They were left out. If triangles are missing, export "
                 "it again from the program it came from.");
   }

@@ -127,7 +127,7 @@ void refuse_unusable(const IndexedMesh& mesh) {
   const std::size_t faces = mesh.triangles.size();
   if (vertices == 0) refuse("The mesh is empty: it has no vertices. Load the scan of a grain.");
   if (faces == 0) {
-    refuse("The mesh has " + std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices") +
+    refuse("The mesh has " + format_count(vertices, "vertex", "vertices") +
            " but no faces, so it encloses no volume. Remesh it as a point cloud first, to make a "
            "closed surface of the points.");
   }

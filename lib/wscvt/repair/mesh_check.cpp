@@ -132,7 +132,7 @@ void judge_others(const IndexedMesh& kept, const std::vector<OtherComponent>& ot
            " separate bodies and the largest has only " +
            format_percent(1.0 - report.dropped_volume_fraction) +
            " of their volume, so there is no main body" +
-           (open > 0 ? "; " + std::to_string(open) + (open == 1 ? " is" : " are") + " open" : "") +
+           (open > 0 ? "; " + format_count(open, "is", "are") + " open" : "") +
            ". Split the mesh (wscvt extract MESH OUT; in "
            "MeshLab Filters > Mesh Layer > Split in Connected Components) and remesh each body "
            "separately, or all of them by wscvt batch MESH -o OUT --parts.");

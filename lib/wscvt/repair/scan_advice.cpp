@@ -40,9 +40,8 @@ Sentence open_seam_sentence(double distance) {
 }
 
 std::string merged_warning(std::size_t corners, double distance) {
-  return std::to_string(corners) + (corners == 1 ? " corner" : " corners") +
-         " of faces along open edges lay up to " + format_number(distance, 2) +
-         " from others and were merged with them.";
+  return format_count(corners, "corner") + " of faces along open edges lay up to " +
+         format_number(distance, 2) + " from others and were merged with them.";
 }
 
 namespace {
