@@ -119,10 +119,7 @@ void write_labels(const std::string& path, LabelVolume& volume, Label largest,
   const std::string header = is_nrrd
                                  ? nrrd_header(geometry, is_short)
                                  : meta_image_header(geometry, is_short, packer.packed().size());
-  write_file(path, [&](std::ostream& stream) {
-    stream << header << packer.packed();
-    return stream.good();
-  });
+  write_file(path, [&](std::ostream& stream) { stream << header << packer.packed(); });
 }
 
 }  // namespace wscvt

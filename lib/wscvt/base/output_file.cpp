@@ -102,13 +102,13 @@ class PartialFile {
 
 /// Writes to pipes, devices and open descriptors, which a renamed file cannot replace.
 void write_through(const std::string& path, const Target& target,
-                   const std::function<bool(std::ostream&)>& write) {
+                   const std::function<void(std::ostream&)>& write) {
   std::ostringstream content;
   content.imbue(std::locale::classic());
-  const bool made = write(content);
-  const bool good = made && content &&
-                    (target.descriptor ? system_files::write_to(*target.descriptor, content.str())
-                                       : system_files::write_to(target.path, content.str()));
+  write(content);
+  const bool good =
+      content && (target.descriptor ? system_files::write_to(*target.descriptor, content.str())
+                                    : system_files::write_to(target.path, content.str()));
   if (!good) fail(path, "cannot be written. The program that reads it may have stopped.");
 }
 
@@ -142,7 +142,7 @@ std::optional<FileState> check_target(const std::string& path, const Target& tar
 
 }  // namespace
 
-void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write) {
+void write_file(const std::string& path, const std::function<void(std::ostream&)>& write) {
   const Target target = follow(path);
   if (target.descriptor) return write_through(path, target, write);
   const std::optional<FileState> there = check_target(path, target);
@@ -153,9 +153,9 @@ void write_file(const std::string& path, const std::function<bool(std::ostream&)
   if (!partial.path().empty()) stream.open(partial.path(), std::ios::binary | std::ios::trunc);
   if (!stream.is_open()) fail(path, check_the_folder);
   stream.imbue(std::locale::classic());
-  const bool written = write(stream);
+  write(stream);
   stream.close();
-  if (!written || !stream) fail_half_written(path);
+  if (!stream) fail_half_written(path);
   if (there && (there->names > 1 || !system_files::take_over(*there, partial.path()))) {
     return copy_into(path, target.path.string(), partial);
   }
@@ -165,10 +165,7 @@ void write_file(const std::string& path, const std::function<bool(std::ostream&)
 }
 
 void write_file(const std::string& path, const std::string& content) {
-  write_file(path, [&](std::ostream& stream) {
-    stream << content;
-    return true;
-  });
+  write_file(path, [&](std::ostream& stream) { stream << content; });
 }
 
 void remove_partial_file(const std::string& path) {

@@ -13,10 +13,10 @@ namespace wscvt {
 /// so that all names keep one file. Writes to pipes, devices and /dev/stdout and never replaces
 /// them.
 ///
-/// `write` writes the content into a binary stream in the classic locale and returns whether it
-/// succeeded. Throws MachineRefused if the file cannot be written, and the exceptions of `write`.
-/// An existing file is then unchanged, and no partial file remains.
-void write_file(const std::string& path, const std::function<bool(std::ostream&)>& write);
+/// `write` writes the content into a binary stream in the classic locale. Throws MachineRefused if
+/// the file cannot be written or the stream is then not good, and the exceptions of `write`. An
+/// existing file is then unchanged, and no partial file remains.
+void write_file(const std::string& path, const std::function<void(std::ostream&)>& write);
 
 /// Writes `content` as the function above.
 void write_file(const std::string& path, const std::string& content);
