@@ -104,7 +104,7 @@ class GrownGrains : public test::FileFolder {
 TEST_F(GrownGrains, HaveTheNumbersOfTheirMeshesAndTheLogHasTheirMeans) {
   const GrowJob job = job_of(6);
   check_job(job);
-  const GrownSample grown = grow_grains(job, real(), grown_grids(), {1});
+  const MadeSample grown = grow_grains(job, real(), grown_grids(), {1});
   EXPECT_EQ(grown.end.done, 6U);
   const std::vector<Row> table = rows();
   ASSERT_EQ(table.size(), 6U);

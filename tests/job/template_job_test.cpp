@@ -104,14 +104,14 @@ class TemplatesOfASample : public test::FileFolder {
     return result;
   }
 
-  static MadeTemplates make(const TemplateJob& job) {
+  static MadeSample make(const TemplateJob& job) {
     return make_templates(
         job, sample(), [](const std::string& file, const Execution&) { return body(file); }, {1});
   }
 };
 
 TEST_F(TemplatesOfASample, HaveTheNumbersOfTheirGrains) {
-  const MadeTemplates made = make(job());
+  const MadeSample made = make(job());
   EXPECT_EQ(made.end.done, 3U);
   const DescribedSample of = sample();
   std::vector<double> masses;

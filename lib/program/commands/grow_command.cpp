@@ -73,7 +73,7 @@ int choose_templates_of(const GrowArguments& arguments,
   const DescribedSample sample =
       described_sample(arguments.inputs, job.descriptors, arguments.threads, arguments.quiet);
   checked([&] { require_scans_kept(job, sample.files); });
-  MadeTemplates made;
+  MadeSample made;
   on_terminal(arguments.threads, arguments.quiet, [&](const JobHost& host) {
     made = make_templates(job, sample, grain_mesh, host);
     return made.end;
@@ -150,7 +150,7 @@ int run(const GrowArguments& arguments) {
   const auto grids = std::make_unique<const SampleGrids>(job.degree);
   RealGrains real = read_shapes(files, *grids, arguments.threads, arguments.quiet);
   const std::size_t left_out = real.left_out;
-  GrownSample grown;
+  MadeSample grown;
   on_terminal(arguments.threads, arguments.quiet, [&](const JobHost& host) {
     grown = grow_grains(job, std::move(real), *grids, host);
     return grown.end;

@@ -68,6 +68,12 @@ std::vector<JobFolder> folders_of(const GrainJob& job);
 void require_scans_kept(const GrainJob& job, const GrainSource& grains,
                         const std::vector<std::string>& scans);
 
+/// Result of a job that makes grains of a sample.
+struct MadeSample {
+  JobEnd end;
+  std::vector<std::string> lines;  ///< for a log; empty if cancelled, or for a part of the grains
+};
+
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.

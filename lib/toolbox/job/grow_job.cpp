@@ -232,8 +232,8 @@ void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real
   require_scans_kept(GrainJob{job.folder, job.shard, job.format}, *grains_of(job), real);
 }
 
-GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
-                        const JobHost& host) {
+MadeSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
+                       const JobHost& host) {
   const Execution execution(host.threads);
   GrainSearch search(real.grains);
   const Growing growing{options, std::move(real.files),
@@ -242,7 +242,7 @@ GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGri
   JoinedGrains grains(options.shard);
   grains.add(grains_of(options));
   const GrainJob job = job_of(options, growing);
-  GrownSample grown;
+  MadeSample grown;
   grown.end = run_job(job, grains, host);
   if (grown.end.was_cancelled()) return grown;
   const JobFolder folder = folders_of(job).front();

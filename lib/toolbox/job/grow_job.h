@@ -37,12 +37,6 @@ struct RealGrains {
   std::size_t left_out = 0;         ///< grains that could not be read
 };
 
-/// Result of the job.
-struct GrownSample {
-  JobEnd end;
-  std::vector<std::string> lines;  ///< for a log; empty if cancelled, or for a part of the grains
-};
-
 /// Throws Error(InvalidInput) for options out of range.
 void check_job(const GrowJob& job);
 
@@ -51,7 +45,7 @@ void require_scans_kept(const GrowJob& job, const std::vector<std::string>& real
 
 /// Makes the grains: a file each, and grown.csv with a row each. Throws as run_job and GrainGrower,
 /// and for the first grain that cannot be made.
-GrownSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
-                        const JobHost& host);
+MadeSample grow_grains(const GrowJob& options, RealGrains real, const SampleGrids& grids,
+                       const JobHost& host);
 
 }  // namespace wscvt

@@ -218,7 +218,7 @@ void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& 
   require_scans_kept(GrainJob{job.folder, job.shard, job.format}, *grains_of(count, {}), sample);
 }
 
-MadeTemplates make_templates(
+MadeSample make_templates(
     const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
     const JobHost& host) {
@@ -230,7 +230,7 @@ MadeTemplates make_templates(
   JoinedGrains grains(options.shard);
   grains.add(grains_of(templates.grains.size(), read_chosen));
   const GrainJob job = job_of(options, sample, templates);
-  MadeTemplates made;
+  MadeSample made;
   made.end = run_job(job, grains, host);
   if (made.end.was_cancelled() || options.shard.count > 1) return made;
   write_sample_files(options, sample, templates);

@@ -42,13 +42,6 @@ std::string size_curve_csv(std::vector<double> diameters);
 /// radius and fraction finer by volume, without a heading.
 std::string mercury_psd_csv(std::vector<double> diameters);
 
-/// Result of the job.
-struct MadeTemplates {
-  JobEnd end;
-  std::vector<std::string>
-      lines;  ///< for a log; empty if cancelled, or for a part of the templates
-};
-
 /// Throws Error(InvalidInput) if a template's file would replace one of the sample's files.
 void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample);
 
@@ -56,7 +49,7 @@ void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& 
 /// mercury_psd.csv for MercuryDPM. `read` returns the closed mesh of a file of the sample, on
 /// several threads at once. Throws as run_job and choose_templates, and for the first template that
 /// cannot be made.
-MadeTemplates make_templates(
+MadeSample make_templates(
     const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
     const JobHost& host);
