@@ -120,14 +120,11 @@ TouchingGrains touching_grains(const GrainVoxels& voxels) {
   return touching;
 }
 
-/// Makes all grains well-composed and of one piece. Returns the number of changed voxels.
-std::size_t compose(GrainVoxels& voxels, std::size_t grains) {
+/// Makes all grains well-composed and of one piece: none touches itself in an edge or corner.
+void compose(GrainVoxels& voxels, std::size_t grains) {
   constexpr int most_rounds = 10;
-  std::size_t changed = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    const std::size_t now = make_well_composed(voxels);
-    if (now == 0) return changed;
-    changed += now;
+    if (make_well_composed(voxels) == 0) return;
     keep_largest_pieces(voxels, grains);
   }
   throw Error(ErrorCode::NumericalFailure,
@@ -230,7 +227,7 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
     grain.voxel_volume = volumes[g];
     result.gained_voxels += grain.gained;
   }
-  result.changed_voxels = compose(voxels, grains);
+  compose(voxels, grains);
   execution.report(0.1, "Finding the walls");
   VoxelWalls walls = voxel_walls(voxels);
   voxels = GrainVoxels({0, 0, 0});

@@ -51,7 +51,6 @@ struct ConformingGrains : WallComplex {
   std::vector<ConformingGrain> grains;
   std::vector<CommonWall> walls;   ///< between grains; by first, then second
   std::int64_t gained_voxels = 0;  ///< from thin gaps, of all grains
-  std::size_t changed_voxels = 0;  ///< so that no grain touches itself in an edge or corner
   std::size_t intersections = 0;   ///< pairs of triangles that are left
   double mean_edge = 0.0;          ///< length
   double edge_variation = 0.0;     ///< standard deviation over mean

@@ -257,19 +257,15 @@ HarmonicLeastSquares least_squares(const HarmonicEquations& equations,
   Vector coefficients = Vector::Zero(unknowns(degree));
   coefficients[0] = mean * std::sqrt(4.0 * pi);
   std::vector<double> rest(values.size());
-  const auto update_rest = [&](const std::vector<double>& series) {
-    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = values[i] - series[i];
-  };
-  update_rest(std::vector<double>(rest.size(), mean));
   for (int pass = 0; pass < equations.passes(); ++pass) {
+    const std::vector<double> series = pass == 0 ? std::vector<double>(rest.size(), mean)
+                                                 : equations.evaluate(coefficients, execution);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = values[i] - series[i];
     const Vector right = equations.project(rest, execution);
     const Solution solution = solve(equations, right, tolerance, execution);
     result.converged = result.converged && solution.converged;
     coefficients += solution.unknowns;
-    update_rest(equations.evaluate(coefficients, execution));
   }
-  for (double& value : rest) value *= value;
-  result.residual = std::sqrt(weighted_mean(points, rest, execution));
   result.coefficients = to_array(coefficients);
   return result;
 }

@@ -57,10 +57,9 @@ double condition_of(const HarmonicEquations& equations, int degree, const Execut
 inline constexpr std::size_t points_per_coefficient = 2;
 inline constexpr double largest_condition = 1000.0;
 
-/// The least-squares solution for values_i at the equations' degree, and the weighted rms residual.
+/// The least-squares solution for values_i at the equations' degree.
 struct HarmonicLeastSquares {
   std::vector<double> coefficients;
-  double residual = 0.0;
   bool converged = true;
 };
 

@@ -59,8 +59,7 @@ Quadrature quadrature_over(const MappedSurface& surface, int degree) {
   const std::vector<std::int32_t> pieces = pieces_of(surface, degree);
   Quadrature result;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const Triangle& t = mesh.triangles[f];
-    const double area = triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+    const double area = triangle_area(mesh, mesh.triangles[f]);
     if (!(area > 0.0)) continue;
     const std::int32_t count = pieces[f];
     const auto add = [&](int i, int j, double shift) {
@@ -88,8 +87,7 @@ Quadrature quadrature_over(const MappedSurface& surface, int degree) {
 
 }  // namespace
 
-HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
-                                const Execution& execution) {
+HarmonicMap fit_harmonic_map(const MappedSurface& surface, int degree, const Execution& execution) {
   require_in_range(degree, fit_degree_option);
   execution.report(0.0, "Fitting the harmonic map");
   const Quadrature quadrature = quadrature_over(surface, degree);
@@ -110,18 +108,16 @@ HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
     equations->set_degree(trial, execution);
     bool converged = condition_of(*equations, trial, execution) <= largest_condition;
     std::array<std::vector<double>, 3> coefficients;
-    double square = 0.0;
     for (std::size_t k = 0; k < 3 && converged; ++k) {
       HarmonicLeastSquares fit =
           least_squares(*equations, points, quadrature.coordinates[k], trial, execution);
       converged = fit.converged;
       coefficients[k] = std::move(fit.coefficients);
-      square += fit.residual * fit.residual;
       execution.report(0.5 + 0.15 * static_cast<double>(k), "Fitting the harmonic map");
     }
     if (!converged) continue;
     execution.report(1.0, "Fitting the harmonic map");
-    return {HarmonicMap(std::move(coefficients)), std::sqrt(square)};
+    return HarmonicMap(std::move(coefficients));
   }
   throw Error(ErrorCode::NumericalFailure,
               "No series of spherical harmonics describes the mapped surface, not even of degree "
@@ -133,7 +129,7 @@ SeriesCoefficients scan_harmonics(const IndexedMesh& scan, int degree, const Exe
   if (!coefficients.radius.empty()) return coefficients;
   const MappedSurface mapped(scan, map_to_sphere(scan, execution.part(0.0, 0.8)),
                              execution.part(0.8, 0.9));
-  coefficients.map = fit_harmonic_map(mapped, degree, execution.part(0.9, 1.0)).map.coefficients();
+  coefficients.map = fit_harmonic_map(mapped, degree, execution.part(0.9, 1.0)).coefficients();
   return coefficients;
 }
 

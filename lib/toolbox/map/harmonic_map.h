@@ -8,12 +8,6 @@ namespace wscvt {
 
 class MappedSurface;
 
-/// A series of the fit's degree, lowered if the surface cannot support the requested one.
-struct HarmonicMapFit {
-  HarmonicMap map;
-  double residual = 0.0;  ///< rms over the area of the distance at equal directions, length
-};
-
 /// Fits x, y and z over the mapped scan by least squares, weighted by the scan's area: one matrix
 /// with three right-hand sides. Quadrature over the faces uses points closer than half a radian /
 /// degree, so the result depends on the surface and its map, not on its triangulation.
@@ -21,7 +15,6 @@ struct HarmonicMapFit {
 /// The degree is lowered until there are at least two points per coefficient and the condition is
 /// at most 1000. Throws Error(InvalidInput) if the degree is not in [0, 60] or the surface has no
 /// area, and Error(NumericalFailure) if even degree 0 has no solution.
-HarmonicMapFit fit_harmonic_map(const MappedSurface& surface, int degree,
-                                const Execution& execution);
+HarmonicMap fit_harmonic_map(const MappedSurface& surface, int degree, const Execution& execution);
 
 }  // namespace wscvt

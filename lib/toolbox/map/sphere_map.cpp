@@ -97,9 +97,8 @@ std::optional<Vector3> kernel_centroid(const std::vector<Vector3>& ring, std::si
 
 }  // namespace
 
-std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
-                                            const std::vector<double>& distances,
-                                            std::size_t apex) {
+std::optional<Vector3> insert_into_kernel(const std::vector<Vector3>& ring,
+                                          const std::vector<double>& distances, std::size_t apex) {
   const std::size_t count = ring.size();
   if (count < 3) return std::nullopt;  // no polygon
   const Vector3& o = ring[apex];
@@ -116,10 +115,10 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
     for (std::size_t i = 0; i < count; ++i) mean += ring[i] / (distances[i] + floor);
     mean.normalize();
     // If a triangle would be thinner than this, the kernel's centroid may be better.
-    if (is_well_inside(mean, ring, 1e-4 * size * size)) return Insertion{mean, false};
+    if (is_well_inside(mean, ring, 1e-4 * size * size)) return mean;
   }
   const std::optional<Vector3> centre = kernel_centroid(ring, apex, size);
-  if (centre && is_in_kernel(*centre, ring)) return Insertion{*centre, true};
+  if (centre && is_in_kernel(*centre, ring)) return centre;
   // Tries points ever closer to the apex, along the middle of its angle, where the kernel is never
   // empty.
   const Vector3 forward = (ring[(apex + 1) % count] - o).normalized();
@@ -132,7 +131,7 @@ std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
   along.normalize();
   for (double step = 0.3 * size; step > 1e-14; step *= 0.5) {
     const Vector3 p = (o + step * along).normalized();
-    if (is_in_kernel(p, ring)) return Insertion{p, true};
+    if (is_in_kernel(p, ring)) return p;
   }
   return std::nullopt;
 }
@@ -203,7 +202,7 @@ class Embedding {
   void insert() {
     const MeshCollapse::Undone undone = mesh_.undo();
     const std::int32_t v = undone.vertex;
-    std::optional<Insertion> place = find_place(v, undone.neighbour);
+    std::optional<Vector3> place = find_place(v, undone.neighbour);
     for (int attempt = 0; !place && attempt < 8; ++attempt) {
       widen(v, undone.neighbour);
       place = find_place(v, undone.neighbour);
@@ -215,7 +214,7 @@ class Embedding {
                       " beside its neighbours. Remove needle-shaped faces around it, e.g. by "
                       "remeshing the scan there.");
     }
-    directions_[v] = place->direction;
+    directions_[v] = *place;
     order_.push_back(v);
     load_fan(v);
     fan_.improve(directions_[v]);
@@ -229,7 +228,7 @@ class Embedding {
     });
   }
 
-  std::optional<Insertion> find_place(std::int32_t v, std::int32_t neighbour) {
+  std::optional<Vector3> find_place(std::int32_t v, std::int32_t neighbour) {
     ring_.clear();
     distances_.clear();
     std::size_t apex = 0;

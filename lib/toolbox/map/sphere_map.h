@@ -10,12 +10,6 @@
 
 namespace wscvt {
 
-/// The position of an inserted vertex.
-struct Insertion {
-  Vector3 direction = Vector3::UnitZ();
-  bool clipped = false;  ///< the kernel's centroid was used, because the mean of the ring failed
-};
-
 /// Finds a point of the ring's kernel: a position on the sphere for a vertex with neighbours at
 /// `ring` (unit vectors, counter-clockwise) such that all its triangles are counter-clockwise by
 /// exact predicates. `distances` are the distances to the neighbours on the surface.
@@ -25,8 +19,8 @@ struct Insertion {
 /// weighted by inverse distance, then the centroid of the kernel clipped from the gnomonic plane
 /// about ring[apex], then points ever closer to ring[apex]. Returns nothing if the kernel is too
 /// thin for doubles.
-std::optional<Insertion> insert_into_kernel(const std::vector<Vector3>& ring,
-                                            const std::vector<double>& distances, std::size_t apex);
+std::optional<Vector3> insert_into_kernel(const std::vector<Vector3>& ring,
+                                          const std::vector<double>& distances, std::size_t apex);
 
 /// Maps a closed mesh of genus 0, as check_mesh returns it, to the sphere. Returns a unit vector
 /// for each vertex. Every triangle is counter-clockwise seen from outside, by the exact sign of its

@@ -170,8 +170,7 @@ struct OrientationTensor {
 struct Roundness {
   /// In (0, 1]; 1 if there are no corners, NaN if the mesh is too coarse.
   double roundness = 1.0;
-  double corner_area_fraction = 0.0;  ///< of the surface area, in [0, 1]
-  double ball_radius = 0.0;           ///< of the balls in which curvature was measured; length
+  double ball_radius = 0.0;  ///< of the balls in which curvature was measured; length
   /// Radius of the sharpest corners that the balls can resolve, over the inscribed radius; no unit.
   double smallest_radius = 0.0;
 };

@@ -93,13 +93,10 @@ Places places_of(const SurfacePatches& patches, std::size_t count) {
   return places;
 }
 
-struct Corners {
-  double value = 1.0;  ///< V
-  double area_share = 0.0;
-};
-
-Corners corners_of(const std::vector<double>& areas,
-                   const std::vector<PrincipalCurvatures>& curvatures, double inscribed_radius) {
+/// Returns V; 1 if there are no corners.
+double corner_roundness(const std::vector<double>& areas,
+                        const std::vector<PrincipalCurvatures>& curvatures,
+                        double inscribed_radius) {
   double area = 0.0;
   double corner_area = 0.0;
   double turn = 0.0;
@@ -109,12 +106,8 @@ Corners corners_of(const std::vector<double>& areas,
     corner_area += areas[i];
     turn += areas[i] * curvatures[i].maximum;
   }
-  Corners corners;
-  corners.area_share = corner_area / area;
-  if (corners.area_share >= smallest_corner_share) {
-    corners.value = corner_area / (inscribed_radius * turn);
-  }
-  return corners;
+  const bool has_corners = corner_area / area >= smallest_corner_share;
+  return has_corners ? corner_area / (inscribed_radius * turn) : 1.0;
 }
 
 }  // namespace
@@ -139,13 +132,12 @@ Roundness wadell_roundness(const IndexedMesh& mesh, double inscribed_radius, dou
   const Places places = places_of(patches, most_places);
   const std::vector<std::vector<PrincipalCurvatures>> curvatures =
       ball_curvatures(patches, places.centres, {radius, wider * radius}, execution);
-  const Corners narrow = corners_of(places.areas, curvatures[0], inscribed_radius);
-  const Corners wide = corners_of(places.areas, curvatures[1], inscribed_radius);
+  const double narrow = corner_roundness(places.areas, curvatures[0], inscribed_radius);
+  const double wide = corner_roundness(places.areas, curvatures[1], inscribed_radius);
   // V grows linearly with the radius.
-  const double correction = (wide.value - narrow.value) / (wider - 1.0);
-  const double most = largest_correction * radius / inscribed_radius * (1.0 - narrow.value);
-  result.roundness = narrow.value - std::clamp(correction, 0.0, std::max(most, 0.0));
-  result.corner_area_fraction = narrow.area_share;
+  const double correction = (wide - narrow) / (wider - 1.0);
+  const double most = largest_correction * radius / inscribed_radius * (1.0 - narrow);
+  result.roundness = narrow - std::clamp(correction, 0.0, std::max(most, 0.0));
   return result;
 }
 
