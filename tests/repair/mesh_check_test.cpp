@@ -20,6 +20,7 @@
 #include "support/test_shapes.h"
 #include "support/voxel_body.h"
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/repair/new_surface.h"
 #include "wscvt/repair/scan_advice.h"
 #include "wscvt/repair/stray_vertex.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/seeds.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 namespace {

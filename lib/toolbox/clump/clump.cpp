@@ -14,6 +14,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/distances.h"
 #include "wscvt/remesh/remesh_warnings.h"
@@ -70,8 +71,7 @@ MassProperties summed_mass(const std::vector<Sphere>& spheres) {
 double intersection_over_union(const IndexedMesh& grain, const std::vector<Sphere>& spheres,
                                const Execution& execution) {
   constexpr double points = 60000.0;
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : grain.points) box.extend(p);
+  Eigen::AlignedBox3d box = box_of(grain.points);
   for (const Sphere& sphere : spheres) {
     box.extend(sphere.centre + Vector3::Constant(sphere.radius));
     box.extend(sphere.centre - Vector3::Constant(sphere.radius));

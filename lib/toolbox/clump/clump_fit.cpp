@@ -41,9 +41,8 @@ std::vector<SurfaceSample> surface_samples(const IndexedMesh& mesh, std::size_t 
   std::vector<SurfaceSample> samples;
   samples.reserve(count);
   for (const MeshPlace& place : area_uniform_places(mesh, count)) {
-    const auto& [a, b, c] = mesh.triangles[place.triangle];
-    const Vector3 normal = doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]);
-    samples.push_back({point_at(mesh, place), normal.normalized()});
+    samples.push_back(
+        {point_at(mesh, place), doubled_area_normal(mesh, place.triangle).normalized()});
   }
   return samples;
 }
@@ -98,10 +97,7 @@ struct GridPoints {
 };
 GridPoints grid_points(const IndexedMesh& mesh, const Execution& execution) {
   constexpr double spacing = 0.13;
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) box.extend(mesh.points[v]);
-  }
+  const Eigen::AlignedBox3d box = box_of_faces(mesh);
   // A long body of equivalent radius 1 is thin, but its box may be large if it is inclined.
   constexpr double most_points = 20000.0;
   const double step = std::max(spacing, portable::cbrt(box.sizes().prod() / most_points));
@@ -240,9 +236,7 @@ class Growth {
   double smallest_in_fit(const IndexedMesh& grain) const {
     if (!options_.inside || options_.smallest_radius_percent == 0.0) return smallest_;
     double area = 0.0;
-    for (const auto& [a, b, c] : grain.triangles) {
-      area += 0.5 * doubled_area_normal(grain.points[a], grain.points[b], grain.points[c]).norm();
-    }
+    for (const Triangle& t : grain.triangles) area += triangle_area(grain, t);
     return std::sqrt(smallest_ * smallest_ + area / depth_samples);
   }
 

@@ -12,6 +12,7 @@
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
 
 namespace wscvt {
@@ -30,7 +31,7 @@ class Joining {
   Joining(std::vector<PieceGroup> groups, const HullCost& cost, const Execution& execution)
       : groups_(std::move(groups)), cost_(cost), execution_(execution) {
     for (std::size_t a = 0; a < groups_.size(); ++a) {
-      boxes_.push_back(box_of(groups_[a]));
+      boxes_.push_back(box_of(groups_[a].body.hull.points));
       if (groups_[a].body.empty()) continue;
       for (std::size_t b = 0; b < a; ++b) add_pair(b, a);
     }
@@ -63,12 +64,6 @@ class Joining {
     double cost = 0.0;  ///< of the common hull, less the costs of the two
     bool is_convex = false;
   };
-
-  static Eigen::AlignedBox3d box_of(const PieceGroup& group) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3& p : group.body.hull.points) box.extend(p);
-    return box;
-  }
 
   /// Adds a pair, unless the two cannot touch.
   void add_pair(std::size_t first, std::size_t second) {
@@ -105,7 +100,7 @@ class Joining {
     one.cost += two.cost + pair.cost;
     one.pieces.insert(one.pieces.end(), two.pieces.begin(), two.pieces.end());
     two = PieceGroup();
-    boxes_[pair.first] = box_of(one);
+    boxes_[pair.first] = box_of(one.body.hull.points);
     // Replaces the pairs of the two by pairs of the new group.
     const auto is_gone = [&](const Pair& other) {
       for (const std::size_t gone : {pair.first, pair.second}) {

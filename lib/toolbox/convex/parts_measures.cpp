@@ -98,9 +98,7 @@ std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
   const IndexedMesh mesh = joined(parts);
   std::vector<Vector3> points;
   for (const MeshPlace& place : area_uniform_places(mesh, samples)) {
-    const auto& [a, b, c] = mesh.triangles[place.triangle];
-    const Vector3 normal =
-        doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
+    const Vector3 normal = doubled_area_normal(mesh, place.triangle).normalized();
     const Vector3 point = point_at(mesh, place);
     // The other part lies beyond a face that two parts share.
     if (all.count(point + beyond * normal) == 0) points.push_back(point);

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wscvt/base/triangle_geometry.h"
+
 namespace wscvt {
 
 SignedGrid::SignedGrid(const IndexedMesh& mesh, int cells, const Execution& execution)
     : distance_(mesh, execution) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : mesh.points) box.extend(p);
+  const Eigen::AlignedBox3d box = box_of(mesh.points);
   const Vector3 size = box.sizes();
   spacing_ = size.maxCoeff() / cells;
   origin_ = box.min() - Vector3::Constant(spacing_);

@@ -31,15 +31,11 @@ void append(std::string& text, Value value) {
 
 using Box = Eigen::AlignedBox3d;
 
-Box box_of(const IndexedMesh& mesh) {
+Box checked_box(const IndexedMesh& mesh) {
   if (mesh.triangles.empty()) {
     refuse("The mesh has no faces, so there is no inside. Give a closed triangle mesh.");
   }
-  Box box;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) box.extend(mesh.points[v]);
-  }
-  return box;
+  return box_of_faces(mesh);
 }
 
 /// First and last multiple of the spacing along an axis.
@@ -80,7 +76,7 @@ void refuse_grid(const Box& box, const GridOptions& options) {
 }
 
 double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
-  const Box box = box_of(mesh);
+  const Box box = checked_box(mesh);
   const double volume = volume_of(mesh, execution);
   if (!(volume > 0.0)) {
     refuse(
@@ -92,7 +88,7 @@ double default_spacing(const IndexedMesh& mesh, const Execution& execution) {
 
 /// Returns a grid about the mesh, without values.
 DistanceGrid empty_grid(const IndexedMesh& mesh, GridOptions options, const Execution& execution) {
-  const Box box = box_of(mesh);
+  const Box box = checked_box(mesh);
   options.spacing = grid_spacing(mesh, options, execution);
   // A remesh may extend a little farther than the scan in check_grid.
   if (!(point_count(box, options) <= 1.1 * most_grid_points)) refuse_grid(box, options);
@@ -116,7 +112,7 @@ double grid_spacing(const IndexedMesh& closed, const GridOptions& options,
 }
 
 void check_grid(const IndexedMesh& closed, const GridOptions& options) {
-  const Box box = box_of(closed);
+  const Box box = checked_box(closed);
   if (options.spacing > 0.0 && !(point_count(box, options) <= most_grid_points)) {
     refuse_grid(box, options);
   }

@@ -68,10 +68,8 @@ struct Probes {
 
   explicit Probes(const IndexedMesh& mesh) {
     for (const MeshPlace& place : area_uniform_places(mesh, sample_count)) {
-      const auto& [a, b, c] = mesh.triangles[place.triangle];
       points.push_back(point_at(mesh, place));
-      normals.push_back(
-          doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized());
+      normals.push_back(doubled_area_normal(mesh, place.triangle).normalized());
     }
     points.insert(points.end(), mesh.points.begin(), mesh.points.end());
   }

@@ -63,9 +63,7 @@ bool covers(const IndexedMesh& mesh, const Triangle& t, double x, double y) {
 }
 
 double height_at(const IndexedMesh& mesh, const Triangle& t, double x, double y) {
-  const Vector3& a = mesh.points[t[0]];
-  const Vector3& b = mesh.points[t[1]];
-  const Vector3& c = mesh.points[t[2]];
+  const auto [a, b, c] = corners_of(mesh, t);
   const Vector3 normal = doubled_area_normal(a, b, c);
   const double height = a.z() - (normal.x() * (x - a.x()) + normal.y() * (y - a.y())) / normal.z();
   const auto [low, high] = std::minmax({a.z(), b.z(), c.z()});
@@ -77,8 +75,7 @@ double height_at(const IndexedMesh& mesh, const Triangle& t, double x, double y)
 
 std::vector<Vector3> points_in(const IndexedMesh& mesh, double volume, std::size_t count) {
   const double spacing = portable::cbrt(volume / static_cast<double>(count));
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : mesh.points) box.extend(p);
+  const Eigen::AlignedBox3d box = box_of(mesh.points);
   const Vector3 low = box.min();
   const auto lines = [&](int axis) {
     return static_cast<std::size_t>(std::ceil(box.sizes()[axis] / spacing)) + 1;

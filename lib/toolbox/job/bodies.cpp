@@ -432,9 +432,7 @@ class PartFinder {
     double area = 0.0;
     double rest = 0.0;
     for (std::size_t f = 0; f < cells.faces.size(); ++f) {
-      const Triangle& t = cells.faces[f];
-      const double own =
-          triangle_area(piece.mesh.points[t[0]], piece.mesh.points[t[1]], piece.mesh.points[t[2]]);
+      const double own = triangle_area(piece.mesh, cells.faces[f]);
       area += own;
       if (cells.before(f) != cells.behind(f)) continue;
       rest += own;
@@ -536,9 +534,8 @@ void append_centres(const Part& inner, const std::unordered_set<std::uint64_t>& 
   }
   const std::size_t asked = std::min(own.size(), most_asked);
   for (std::size_t k = 0; k < asked; ++k) {
-    const Triangle& t = inner.mesh.triangles[own[k * own.size() / asked]];
-    points.emplace_back(
-        (inner.mesh.points[t[0]] + inner.mesh.points[t[1]] + inner.mesh.points[t[2]]) / 3.0);
+    const auto [a, b, c] = corners_of(inner.mesh, own[k * own.size() / asked]);
+    points.emplace_back((a + b + c) / 3.0);
   }
 }
 
@@ -612,13 +609,10 @@ void find_holders(std::vector<Part>& parts, const Execution& execution) {
 /// Appends points a little below some faces spread over a surface, about an edge deep.
 void append_depths(const IndexedMesh& mesh, std::vector<Vector3>& points) {
   constexpr std::size_t most_asked = 16;
-  const std::vector<Triangle>& triangles = mesh.triangles;
-  const std::size_t asked = std::min(triangles.size(), most_asked);
+  const std::size_t faces = mesh.triangles.size();
+  const std::size_t asked = std::min(faces, most_asked);
   for (std::size_t k = 0; k < asked; ++k) {
-    const Triangle& t = triangles[k * triangles.size() / asked];
-    const Vector3& a = mesh.points[t[0]];
-    const Vector3& b = mesh.points[t[1]];
-    const Vector3& c = mesh.points[t[2]];
+    const auto [a, b, c] = corners_of(mesh, k * faces / asked);
     const Vector3 normal = doubled_area_normal(a, b, c);
     const double doubled_area = normal.norm();
     if (!(doubled_area > 0.0)) continue;

@@ -21,6 +21,7 @@
 #include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/mesh_quality.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/repair/mesh_check.h"
@@ -209,8 +210,7 @@ std::string BodyGrains::row_of(std::size_t number, const std::string& file) cons
       std::to_string(body.pores),
       format_exact(body.pore_volume),
       std::to_string(body.boundary_edges)};
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : body.mesh.points) box.extend(p);
+  const Eigen::AlignedBox3d box = box_of(body.mesh.points);
   for (const Vector3& corner : {box.min(), box.max()}) {
     for (const double coordinate : corner) fields.push_back(format_exact(coordinate));
   }

@@ -39,14 +39,10 @@ double side_of(const std::vector<Vector3>& points, std::int32_t from, std::int32
   return swapped ? -side : side;
 }
 
-std::array<Vector3, 3> corners_of(const std::vector<Vector3>& points, const Triangle& triangle) {
-  const auto& [a, b, c] = triangle;
-  return {points[a], points[b], points[c]};
-}
-
 void append_crossings(const std::vector<Vector3>& points, const Triangle& triangle,
                       std::vector<Crossing>& crossings) {
-  const std::array<Vector3, 3> corners = corners_of(points, triangle);
+  const auto& [a, b, c] = triangle;
+  const std::array<Vector3, 3> corners{points[a], points[b], points[c]};
   const auto [y0, y1] = std::minmax({corners[0][1], corners[1][1], corners[2][1]});
   const auto [z0, z1] = std::minmax({corners[0][2], corners[1][2], corners[2][2]});
   const auto first = [](double low) { return static_cast<std::int32_t>(std::ceil(low - 0.5)); };
@@ -76,7 +72,7 @@ std::optional<double> lattice_plane(const IndexedMesh& mesh, double voxel_size, 
   double cosines = 0.0;
   double sines = 0.0;
   for (const Triangle& triangle : mesh.triangles) {
-    const std::array<Vector3, 3> corners = corners_of(mesh.points, triangle);
+    const std::array<Vector3, 3> corners = corners_of(mesh, triangle);
     const Vector3 normal = doubled_area_normal(corners[0], corners[1], corners[2]);
     const double square = normal.squaredNorm();
     if (square == 0.0) continue;

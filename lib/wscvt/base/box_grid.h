@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,12 +10,6 @@
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt {
-
-/// Returns the smallest box of a triangle, with sides along the axes.
-inline Eigen::AlignedBox3d box_of(const std::array<Vector3, 3>& corners) {
-  return {corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
-          corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
-}
 
 /// Boxes with sides along the axes, in the cells of a grid, which finds those that another box
 /// meets. Const functions are thread-safe.

@@ -41,13 +41,30 @@ std::vector<Vector3> vertex_normals(const std::vector<Vector3>& points,
 
 std::vector<double> vertex_areas(const IndexedMesh& mesh) {
   std::vector<double> areas(mesh.points.size(), 0.0);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const double third = triangle_area(mesh.points[a], mesh.points[b], mesh.points[c]) / 3.0;
-    areas[a] += third;
-    areas[b] += third;
-    areas[c] += third;
+  for (const Triangle& t : mesh.triangles) {
+    const double third = triangle_area(mesh, t) / 3.0;
+    for (const std::int32_t v : t) areas[v] += third;
   }
   return areas;
+}
+
+Eigen::AlignedBox3d box_of(const std::vector<Vector3>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3& p : points) box.extend(p);
+  return box;
+}
+
+Eigen::AlignedBox3d box_of_faces(const IndexedMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  Vector3 low = mesh.points[mesh.triangles[0][0]];
+  Vector3 high = low;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::int32_t v : t) {
+      low = low.cwiseMin(mesh.points[v]);
+      high = high.cwiseMax(mesh.points[v]);
+    }
+  }
+  return {low, high};
 }
 
 Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p) {

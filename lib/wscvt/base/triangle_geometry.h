@@ -55,6 +55,18 @@ inline double triangle_area(const IndexedMesh& mesh, const Triangle& t) {
   return triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
 }
 
+/// Returns the smallest box of a triangle, with sides along the axes.
+inline Eigen::AlignedBox3d box_of(const std::array<Vector3, 3>& corners) {
+  return {corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]),
+          corners[0].cwiseMax(corners[1]).cwiseMax(corners[2])};
+}
+
+/// Returns the smallest box of points, with sides along the axes. Empty without points.
+Eigen::AlignedBox3d box_of(const std::vector<Vector3>& points);
+
+/// Returns the smallest box of the corners of the faces; other points may lie anywhere.
+Eigen::AlignedBox3d box_of_faces(const IndexedMesh& mesh);
+
 /// Returns the barycentric weights of the point of the triangle a, b, c nearest to `p`: each >= 0,
 /// sum 1 (Ericson 2005, "Real-time collision detection", section 5.1.5).
 Vector3 nearest_weights(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& p);

@@ -41,7 +41,7 @@ std::vector<MeshPlace> area_uniform_places(const IndexedMesh& mesh, std::size_t 
   for (const Triangle& t : mesh.triangles) {
     const double density =
         densities.empty() ? 1.0 : (densities[t[0]] + densities[t[1]] + densities[t[2]]) / 3.0;
-    area += density * triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+    area += density * triangle_area(mesh, t);
     accumulated.push_back(area);
   }
   if (!(area > 0.0)) {
@@ -272,11 +272,7 @@ class LargestDistance {
 constexpr std::size_t most_quartered = 256;
 
 /// Returns the diagonal of the box around points; length.
-double size_of(const std::vector<Vector3>& points) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3& point : points) box.extend(point);
-  return box.diagonal().norm();
-}
+double size_of(const std::vector<Vector3>& points) { return box_of(points).diagonal().norm(); }
 
 /// Returns the largest distance from the vertices of a mesh to another, at least `found`. They cost
 /// little: a search ends at any face as near as the largest distance so far.

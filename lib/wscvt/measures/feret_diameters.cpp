@@ -179,8 +179,8 @@ std::vector<DirectionMinimum> narrowest_faces(const IndexedMesh& hull,
   std::vector<DirectionMinimum> faces;
   for (const Triangle& t : hull.triangles) {
     execution.report(0.7, diameter_stage);
-    const Vector3& a = hull.points[t[0]];
-    const Vector3 normal = (hull.points[t[1]] - a).cross(hull.points[t[2]] - a);
+    const auto [a, b, c] = corners_of(hull, t);
+    const Vector3 normal = doubled_area_normal(a, b, c);
     if (!(normal.norm() > 0.0)) continue;
     faces.push_back({normal.normalized(), width_along(extremes, normal.normalized())});
   }

@@ -71,8 +71,7 @@ class NearbyBoxes {
   /// Directions within `angle` of each other, radians, are near.
   NearbyBoxes(const std::vector<Vector3>& points, double angle)
       : points_(points), largest_angle_(angle) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3& p : points) box.extend(p);
+    const Eigen::AlignedBox3d box = box_of(points);
     for (const Vector3& p : points) {
       diameter_ = std::max(diameter_, (2.0 * p - box.min() - box.max()).norm());
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptor_steps.h"
 #include "wscvt/measures/mesh_distance.h"
 
@@ -245,10 +246,7 @@ InscribedSphere largest_inscribed_sphere(const IndexedMesh& mesh, const Executio
         "encloses a volume.");
   }
   const MeshDistance surface(mesh, execution);
-  Eigen::AlignedBox3d box;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) box.extend(mesh.points[v]);
-  }
+  const Eigen::AlignedBox3d box = box_of_faces(mesh);
   SphereSearch search(surface, box);
   while (!search.is_done()) {
     search.refine(execution);

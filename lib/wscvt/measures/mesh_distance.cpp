@@ -154,9 +154,8 @@ class MeshDistance::Builder {
 };
 
 bool has_area(const IndexedMesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-    return triangle_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) > 0.0;
-  });
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Triangle& t) { return triangle_area(mesh, t) > 0.0; });
 }
 
 MeshDistance::MeshDistance(const IndexedMesh& mesh, const Execution& execution,

@@ -126,8 +126,7 @@ void write_vtu(std::ostream& stream, const IndexedMesh& mesh) {
 }
 
 void write_gmsh(std::ostream& stream, const IndexedMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3& p : mesh.points) box.extend(p);
+  Eigen::AlignedBox3d box = box_of(mesh.points);
   if (mesh.points.empty()) box.extend(Vector3::Zero());
   const std::string nodes = std::to_string(mesh.points.size());
   const std::string faces = std::to_string(mesh.triangles.size());

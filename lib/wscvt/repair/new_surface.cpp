@@ -304,7 +304,7 @@ IndexedMesh shrink_wrap_of(IndexedMesh scan, const ShrinkWrapOptions& options,
   Eigen::AlignedBox3d box;
   if (of_points) {
     scan.points = different_points(std::move(scan.points), execution);
-    for (const Vector3& p : scan.points) box.extend(p);
+    box = box_of(scan.points);
   } else {
     keep_usable_faces(scan);
     box = box_of_faces(scan);

@@ -9,6 +9,7 @@
 
 #include "wscvt/base/half_edges.h"
 #include "wscvt/base/sorting.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
@@ -59,19 +60,6 @@ Cell cell_at(const Eigen::Array3d& position) {
 }
 
 }  // namespace
-
-Box box_of_faces(const IndexedMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  Vector3 low = mesh.points[index(mesh.triangles[0][0])];
-  Vector3 high = low;
-  for (const Triangle& t : mesh.triangles) {
-    for (const std::int32_t v : t) {
-      low = low.cwiseMin(mesh.points[index(v)]);
-      high = high.cwiseMax(mesh.points[index(v)]);
-    }
-  }
-  return {low, high};
-}
 
 // A hash table of the kept points, with open addressing; the key is the cube of a point. The slow
 // part, the cubes and their hashes, is computed in parallel beforehand. The table is filled in

@@ -13,10 +13,6 @@ namespace wscvt {
 /// Box with sides along the axes.
 using Box = Eigen::AlignedBox3d;
 
-/// Returns the box of all corners of the faces. Vertices without a face do not count, because they
-/// may lie anywhere.
-Box box_of_faces(const IndexedMesh& mesh);
-
 /// The result of find_equal_points.
 struct Weld {
   /// For every vertex its replacement: itself or an earlier vertex. Empty if all stay.

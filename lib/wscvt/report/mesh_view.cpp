@@ -132,9 +132,7 @@ Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view
                   std::vector<Colour>(seen.faces.size(), Colour{255, 255, 255})};
   for (std::size_t i = 0; i < seen.faces.size(); ++i) {
     if (seen.faces[i] == nothing) continue;
-    const auto& [a, b, c] = mesh.triangles[static_cast<std::size_t>(seen.faces[i])];
-    const Vector3 normal =
-        doubled_area_normal(mesh.points[a], mesh.points[b], mesh.points[c]).normalized();
+    const Vector3 normal = doubled_area_normal(mesh, seen.faces[i]).normalized();
     double brightness = 0.35 + 0.65 * std::max(0.0, normal.dot(light));
     if (with_edges && seen.edges[i] < edge_pixels) brightness *= 0.35;
     const Colour& colour = colour_of ? colours[asked[square_of(i)]] : grey;

@@ -99,8 +99,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }  // namespace
 
 std::vector<std::int32_t> space_order(const std::vector<Vector3>& points) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3& point : points) box.extend(point);
+  const Eigen::AlignedBox3d box = box_of(points);
   const double extent = box.sizes().maxCoeff();
   const double scale = extent > 0.0 ? ((1 << bits_a_coordinate) - 1) / extent : 0.0;
   std::vector<std::pair<std::uint64_t, std::int32_t>> keys(points.size());

@@ -15,6 +15,7 @@
 #include "wscvt/base/box_grid.h"
 #include "wscvt/base/sorting.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wscvt/base/box_grid.h"
+#include "wscvt/base/triangle_geometry.h"
 
 namespace wscvt {
 
