@@ -11,6 +11,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "wscvt/base/input_file.h"
 #include "wscvt/base/machine_refused.h"
 #include "wscvt/base/option.h"
@@ -80,21 +81,20 @@ TEST(MachineRefused, IsAFileThatIsThereAndCannotBeOpened) {
   std::string sentence;
   for (const int number : {ENOENT, EACCES, EISDIR, ENOTDIR, ELOOP, ENAMETOOLONG, EPERM, 0}) {
     EXPECT_FALSE(is_of_the_machine(folder + "/no.ply", number, sentence)) << number;
-    EXPECT_NE(sentence.find("/no.ply\" cannot be opened. "), std::string::npos) << sentence;
+    EXPECT_TRUE(test::holds(sentence, "/no.ply\" cannot be opened. "));
   }
   for (const int number : {EMFILE, ENFILE, ENOMEM, EIO, ESTALE, EINTR}) {
     EXPECT_TRUE(is_of_the_machine(folder + "/no.ply", number, sentence)) << number;
   }
   EXPECT_TRUE(is_of_the_machine("no.ply", EMFILE, sentence));
-  EXPECT_NE(sentence.find("Too many open files"), std::string::npos) << sentence;
+  EXPECT_TRUE(test::holds(sentence, "Too many open files"));
 }
 
 TEST(MachineRefused, IsAFolderThatIsGone) {
   std::string sentence;
   EXPECT_FALSE(is_of_the_machine("no.ply", ENOENT, sentence));
   EXPECT_TRUE(is_of_the_machine("no such folder/no.ply", ENOENT, sentence));
-  EXPECT_NE(sentence.find("the folder \"no such folder\" is not there"), std::string::npos)
-      << sentence;
+  EXPECT_TRUE(test::holds(sentence, "the folder \"no such folder\" is not there"));
 }
 
 /// A file of Linux that can be opened, and whose first byte the system refuses to read.

@@ -16,6 +16,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "wscvt/base/error.h"
 
 namespace wscvt {
@@ -73,8 +74,8 @@ TEST_F(OutputFile, SaysWhatIsWrong) {
       FAIL() << name;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::InputOutput);
-      EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
-      EXPECT_NE(std::string(error.what()).find("Check"), std::string::npos);
+      EXPECT_TRUE(test::holds(error.what(), name));
+      EXPECT_TRUE(test::holds(error.what(), "Check"));
     }
   }
   expect_only("before");

@@ -16,6 +16,7 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
@@ -24,6 +25,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// Fills the inner voxels by a function of their middles; -1 is background.
 template <class Grain>
@@ -255,7 +258,7 @@ TEST(ConformingGrains, NoTrianglesIntersectInThinGaps) {
       }
       EXPECT_EQ(result.intersections, 0U);
       for (const Sentence& warning : conforming_warnings(result, std::vector<Label>(12, 1))) {
-        EXPECT_EQ(warning.text().find("intersect"), std::string::npos);
+        EXPECT_FALSE(holds(warning.text(), "intersect"));
       }
     }
   }
@@ -346,8 +349,8 @@ TEST(ConformingGrains, TellsSliversAndWallsAcrossGaps) {
   flat.flattest = 1;
   const std::vector<Sentence> warnings = conforming_warnings(flat, {3, 7});
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].text().find("0.4 degrees, at grain 7"), std::string::npos);
-  EXPECT_NE(conforming_lines(flat)[1].find("shortest 0.001"), std::string::npos);
+  EXPECT_TRUE(holds(warnings[0].text(), "0.4 degrees, at grain 7"));
+  EXPECT_TRUE(holds(conforming_lines(flat)[1], "shortest 0.001"));
 }
 
 TEST(ConformingGrains, GrainsThatTouchInAnEdgeOrACornerAreApart) {
@@ -438,7 +441,7 @@ TEST(ConformingGrains, LongVoxelsMakeNoLongEdgesAndLostVolumesAreTold) {
   const std::vector<Sentence> warnings = conforming_warnings(coarse);
   ASSERT_FALSE(warnings.empty());
   const std::string told = "err by up to " + format_percent(coarse.volume_error) + ",";
-  EXPECT_NE(warnings[0].text().find(told), std::string::npos) << warnings[0].text();
+  EXPECT_TRUE(holds(warnings[0].text(), told));
 }
 
 TEST(ConformingGrains, AreMeasuredAsByHand) {
@@ -680,8 +683,8 @@ TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
   const auto refused = [](std::size_t grains, double edge) {
     return test::refusal(ErrorCode::InvalidInput, [&] { conformed(two_balls(), grains, edge); });
   };
-  EXPECT_NE(refused(0, 3.0).find("no grain"), std::string::npos);
-  EXPECT_NE(refused(3, 3.0).find("Grain 2 has no voxel"), std::string::npos);
+  EXPECT_TRUE(holds(refused(0, 3.0), "no grain"));
+  EXPECT_TRUE(holds(refused(3, 3.0), "Grain 2 has no voxel"));
   const std::string small = test::refusal(ErrorCode::InvalidInput, [] {
     conformed(voxels_of(10,
                         [](const Vector3& p) {
@@ -689,9 +692,9 @@ TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
                         }),
               1);
   });
-  EXPECT_NE(small.find("Grain 0 has only 8 voxels"), std::string::npos) << small;
-  EXPECT_NE(small.find("--smallest"), std::string::npos) << small;
-  EXPECT_NE(refused(2, 0.5).find("below a voxel's edge"), std::string::npos);
+  EXPECT_TRUE(holds(small, "Grain 0 has only 8 voxels"));
+  EXPECT_TRUE(holds(small, "--smallest"));
+  EXPECT_TRUE(holds(refused(2, 0.5), "below a voxel's edge"));
   EXPECT_NE(refused(2, -1.0), "");
 }
 

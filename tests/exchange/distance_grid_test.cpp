@@ -11,12 +11,15 @@
 #include <utility>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/distances.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// Calls `visit(point, value)` for every point.
 template <class Visit>
@@ -128,8 +131,8 @@ TEST(DistanceGrid, NumPyFileHoldsEveryNumber) {
   const std::string shape = "(" + std::to_string(grid.counts[0]) + ", " +
                             std::to_string(grid.counts[1]) + ", " + std::to_string(grid.counts[2]) +
                             ")";
-  EXPECT_NE(bytes.substr(10, header).find("'descr': '<f8'"), std::string::npos);
-  EXPECT_NE(bytes.substr(10, header).find("'shape': " + shape), std::string::npos);
+  EXPECT_TRUE(holds(bytes.substr(10, header), "'descr': '<f8'"));
+  EXPECT_TRUE(holds(bytes.substr(10, header), "'shape': " + shape));
   ASSERT_EQ(bytes.size(), 10 + header + 8 * grid.values.size());
   for (std::size_t i = 0; i < grid.values.size(); ++i) {
     EXPECT_EQ(number_at(bytes, 10 + header + 8 * i), grid.values[i]);
@@ -146,13 +149,13 @@ TEST(DistanceGrid, ImageDataRunsAlongXFirst) {
     return std::string(name) + "=\"0 " + std::to_string(nx - 1) + " 0 " + std::to_string(ny - 1) +
            " 0 " + std::to_string(nz - 1) + "\"";
   };
-  EXPECT_NE(bytes.find(extent("WholeExtent")), std::string::npos);
-  EXPECT_NE(bytes.find("<Piece " + extent("Extent")), std::string::npos);
-  EXPECT_NE(bytes.find("Origin=\"" + format_exact(grid.origin.x()) + " " +
-                       format_exact(grid.origin.y()) + " " + format_exact(grid.origin.z()) + "\""),
-            std::string::npos);
+  EXPECT_TRUE(holds(bytes, extent("WholeExtent")));
+  EXPECT_TRUE(holds(bytes, "<Piece " + extent("Extent")));
+  EXPECT_TRUE(holds(bytes, "Origin=\"" + format_exact(grid.origin.x()) + " " +
+                               format_exact(grid.origin.y()) + " " + format_exact(grid.origin.z()) +
+                               "\""));
   const std::string step = format_exact(grid.spacing);
-  EXPECT_NE(bytes.find("Spacing=\"" + step + " " + step + " " + step + "\""), std::string::npos);
+  EXPECT_TRUE(holds(bytes, "Spacing=\"" + step + " " + step + " " + step + "\""));
   const std::size_t begin = bytes.find("\n_") + 2;
   std::uint64_t length = 0;
   std::memcpy(&length, &bytes[begin], sizeof length);
@@ -206,8 +209,8 @@ TEST(DistanceGrid, TheRefusalOfASpacingNamesTheOptionAndOneThatIsTaken) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
     const std::string sentence = error.what();
-    EXPECT_NE(sentence.find("(--sdf-spacing) of 0.005 needs a grid of 52"), std::string::npos)
-        << sentence;  // 209 x 409 x 609 points
+    EXPECT_TRUE(
+        holds(sentence, "(--sdf-spacing) of 0.005 needs a grid of 52"));  // 209 x 409 x 609 points
     const std::size_t place = sentence.find(". Give ") + 7;
     const double advised = std::stod(sentence.substr(place));
     EXPECT_GT(advised, 0.005);

@@ -12,6 +12,7 @@
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 
 namespace wscvt {
@@ -108,7 +109,7 @@ TEST_F(FragmentFile, HasTheMassOfATurnedBox) {
   for (const char* name : {"box.shp", "box.urdf"}) write_fragment(path(name), box, mass, 2650.0);
   const auto after = [&](const char* name, const std::string& word) {
     const std::string text = content(name);
-    EXPECT_NE(text.find(word), std::string::npos) << text;
+    EXPECT_TRUE(test::holds(text, word));
     std::istringstream numbers(text.substr(text.find(word) + word.size()));
     return std::vector<double>{std::istream_iterator<double>(numbers), {}};
   };

@@ -9,6 +9,7 @@
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -64,8 +65,8 @@ TEST(NodeTable, CsvReadsBackToTheSameBits) {
 TEST(NodeTable, VtpHoldsTheMeshAndItsArrays) {
   const NodeTable nodes = node_table(test::lumpy(2));
   const std::string vtp = nodes_vtp(nodes);
-  EXPECT_NE(vtp.find("NumberOfPoints=\"" + std::to_string(nodes.mesh.points.size()) + "\""),
-            std::string::npos);
+  EXPECT_TRUE(
+      test::holds(vtp, "NumberOfPoints=\"" + std::to_string(nodes.mesh.points.size()) + "\""));
   const std::vector<double> points = numbers_of(vtp, "Points");
   const std::vector<double> normals = numbers_of(vtp, "normal");
   const std::vector<double> areas = numbers_of(vtp, "area");

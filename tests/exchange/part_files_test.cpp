@@ -12,11 +12,14 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// The numbers of the first attribute of this name.
 std::vector<double> attribute_numbers(const std::string& text, const std::string& attribute) {
@@ -71,7 +74,7 @@ TEST_F(PartFiles, OfUrdfHaveTheMassAndInertiaOfATurnedBox) {
   EXPECT_NEAR(attribute_number(text, "izz"), density * inertia(2, 2), rounding);
   const std::string obj = content("grain_2.obj");
   EXPECT_EQ(obj.rfind("g part_2\nv ", 0), 0U);
-  EXPECT_NE(obj.find("\nf 1 "), std::string::npos) << "each file numbers its own vertices";
+  EXPECT_TRUE(holds(obj, "\nf 1 ")) << "each file numbers its own vertices";
 }
 
 TEST_F(PartFiles, OfMujocoHaveTheMassAndInertiaOfATurnedBox) {
@@ -97,14 +100,13 @@ TEST_F(PartFiles, OfObjHaveAGroupPerPart) {
   EXPECT_LT(text.find("g part_1\n"), second);
   EXPECT_EQ(read_mesh(path("grain.obj")).triangles, joined({box, other}).triangles)
       << "vertices count on";
-  EXPECT_EQ(text.find("g part_3"), std::string::npos);
+  EXPECT_FALSE(holds(text, "g part_3"));
 }
 
 TEST_F(PartFiles, KeepSignsOfMarkupInNamesOutOfTheMarkup) {
   const std::string urdf = written("a & \"b\" <c> 'd'.urdf");
-  EXPECT_NE(urdf.find("<mesh filename=\"a &amp; &quot;b&quot; &lt;c&gt; 'd'_2.obj\"/>"),
-            std::string::npos);
-  EXPECT_NE(written("a & \"b\".xml").find("model=\"a &amp; &quot;b&quot;\""), std::string::npos);
+  EXPECT_TRUE(holds(urdf, "<mesh filename=\"a &amp; &quot;b&quot; &lt;c&gt; 'd'_2.obj\"/>"));
+  EXPECT_TRUE(holds(written("a & \"b\".xml"), "model=\"a &amp; &quot;b&quot;\""));
 }
 
 // MuJoCo refuses moments below 1e-14. Moments grow with the square of the unit, and the density
@@ -114,9 +116,9 @@ TEST_F(PartFiles, OfASmallGrainWarnOfMujocosLimit) {
   EXPECT_TRUE(inertia_warning("grain.xml", mass, 1.1e4).empty());
   EXPECT_TRUE(inertia_warning("grain.urdf", mass, 2000.0).empty());
   const std::string told = inertia_warning("grain.xml", mass, 2000.0).text();
-  EXPECT_NE(told.find("moment of inertia is 2e-15"), std::string::npos) << told;
-  EXPECT_NE(told.find(" by 1000, "), std::string::npos) << told;
-  EXPECT_NE(told.find("2e-06"), std::string::npos) << told;
+  EXPECT_TRUE(holds(told, "moment of inertia is 2e-15"));
+  EXPECT_TRUE(holds(told, " by 1000, "));
+  EXPECT_TRUE(holds(told, "2e-06"));
 }
 
 TEST_F(PartFiles, RefuseOtherEndings) {

@@ -14,6 +14,7 @@
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "toolbox/exchange/distance_grid.h"
 #include "toolbox/exchange/simulation_options.h"
@@ -145,11 +146,11 @@ TEST_F(SimulationFiles, GridIsOfTheScanUnlessTheRemeshIsAsked) {
 
 TEST_F(SimulationFiles, FollowTheirEndings) {
   write_nodes(path("nodes.VTP"), *result, options);
-  EXPECT_NE(content("nodes.VTP").find("PolyData"), std::string::npos);
+  EXPECT_TRUE(test::holds(content("nodes.VTP"), "PolyData"));
   write_nodes(path("a grain.shp"), *result, options);
-  EXPECT_NE(content("a grain.shp").find("name a_grain\n"), std::string::npos);
+  EXPECT_TRUE(test::holds(content("a grain.shp"), "name a_grain\n"));
   write_distance_grid(path("grid.vti"), *result, options, {}, Execution(2));
-  EXPECT_NE(content("grid.vti").find("ImageData"), std::string::npos);
+  EXPECT_TRUE(test::holds(content("grid.vti"), "ImageData"));
   write_distance_grid(path("grid.json"), *result, options, {}, Execution(2));
   EXPECT_TRUE(nlohmann::json::parse(content("grid.json")).contains("signed_distance_table"));
   EXPECT_EQ(grid_description_path("grid.vti"), "");

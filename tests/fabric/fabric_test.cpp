@@ -17,6 +17,7 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "support/volume_folder.h"
@@ -29,6 +30,7 @@
 namespace wscvt {
 namespace {
 
+using test::holds;
 using test::MadeVolume;
 
 double angle_between(const Vector3& a, const Vector3& b) {
@@ -175,8 +177,8 @@ TEST_F(FabricOfAFile, RefusesGreyValues) {
   write_labels(scan);
   const std::string sentence =
       test::refusal(ErrorCode::InvalidInput, [&] { measured("labels.nrrd"); });
-  EXPECT_NE(sentence.find("look like grey values"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("wscvt segment"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "look like grey values"));
+  EXPECT_TRUE(holds(sentence, "wscvt segment"));
 }
 
 TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
@@ -466,19 +468,19 @@ TEST_F(FabricOfAFile, RefusesWhatHasNoContacts) {
     return test::refusal(ErrorCode::InvalidInput, [&] { measured(labels, scan); });
   };
   write_labels(MadeVolume({5, 5, 5}), "none.nrrd");
-  EXPECT_NE(refused("none.nrrd").find("no label except the background, 0"), std::string::npos);
+  EXPECT_TRUE(holds(refused("none.nrrd"), "no label except the background, 0"));
   MadeVolume one({5, 5, 5});
   one.fill_ball(8, {2, 2, 2}, 1.5);
   write_labels(one, "one.nrrd");
-  EXPECT_NE(refused("one.nrrd").find("one label, 8"), std::string::npos);
+  EXPECT_TRUE(holds(refused("one.nrrd"), "one label, 8"));
   write_labels(chain(), "chain.nrrd");
   write_labels(MadeVolume({64, 30, 29}), "other.nrrd");
-  EXPECT_NE(refused("chain.nrrd", "other.nrrd").find("64 x 30 x 29"), std::string::npos);
+  EXPECT_TRUE(holds(refused("chain.nrrd", "other.nrrd"), "64 x 30 x 29"));
   write_labels(MadeVolume({64, 30, 30}), "flat.nrrd");
-  EXPECT_NE(refused("chain.nrrd", "flat.nrrd").find("do not differ"), std::string::npos);
+  EXPECT_TRUE(holds(refused("chain.nrrd", "flat.nrrd"), "do not differ"));
   one.fill_ball(9, {2, 2, 4}, 1.2);
   write_labels(one, "small.nrrd");
-  EXPECT_NE(refused("small.nrrd", "small.nrrd").find("Leave the scan out"), std::string::npos);
+  EXPECT_TRUE(holds(refused("small.nrrd", "small.nrrd"), "Leave the scan out"));
   write("floats.nrrd",
         "NRRD0004\ntype: float\ndimension: 3\nencoding: ascii\nsizes: 2 1 1\n\n1.5 2\n");
   EXPECT_ERROR(measured("floats.nrrd"), InputOutput);
@@ -580,12 +582,12 @@ TEST_F(FabricOfAFile, WritesWhatItMeasured) {
   EXPECT_EQ(areas[1].back(), format_number(all, 4));
   EXPECT_EQ(areas[2].back(), format_number(raw, 4));
   EXPECT_NEAR(fabric.contact_area, all, 1e-9 * all);
-  EXPECT_NE(page.find("Projected area of the contacts " + format_number(all, 4) +
-                      " mm^2, standard uncertainty " +
-                      format_number(fabric.contact_area_uncertainty, 4) + " mm^2; of all pairs"),
-            std::string::npos);
+  EXPECT_TRUE(holds(page, "Projected area of the contacts " + format_number(all, 4) +
+                              " mm^2, standard uncertainty " +
+                              format_number(fabric.contact_area_uncertainty, 4) +
+                              " mm^2; of all pairs"));
   // All three normals lie within ten degrees of x, so the first or the last sector has them.
-  EXPECT_NE(page.find("outer circle: "), std::string::npos);
+  EXPECT_TRUE(holds(page, "outer circle: "));
 }
 
 TEST_F(FabricOfAFile, SumsUpItsContacts) {

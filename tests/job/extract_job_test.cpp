@@ -15,6 +15,7 @@
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "toolbox/job/label_source.h"
@@ -26,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Row = test::CsvRow;
+using test::holds;
 
 IndexedMesh turned_inward(IndexedMesh mesh) {
   for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -199,8 +201,8 @@ TEST_F(ExtractedGrains, OfBodiesHaveTheWarningsAndTheNamesOfTheirFile) {
   file("a.stl", content("a.stl") + "more");
   const std::vector<std::string> warnings = BodyGrains(path("a.stl"), 0.0, Execution(1)).warnings();
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_NE(warnings[0].find("has 4 bytes"), std::string::npos) << warnings[0];
-  EXPECT_NE(warnings[1].find("Bodies 1 and 2 overlap"), std::string::npos) << warnings[1];
+  EXPECT_TRUE(holds(warnings[0], "has 4 bytes"));
+  EXPECT_TRUE(holds(warnings[1], "Bodies 1 and 2 overlap"));
   const std::string faces = "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\n";
   file("b.obj", faces + "v 9 0 0\nv 10 0 0\nv 9 1 0\nv 9 0 1\no host\nf 1 3 2\nf 1 2 4\nf 1 4 3\n" +
                     "f 2 3 4\no crumb\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n");
@@ -253,7 +255,7 @@ TEST_F(ExtractedGrains, ThatAreCrumbsAreRefusedAndDescribedAsFailed) {
   const auto shapes = test::csv_rows(content("out/shape.csv"), "grain");
   const Row& crumbs = shapes.at(path("v.nrrd/2"));
   EXPECT_EQ(crumbs.at("status"), "failed");
-  EXPECT_NE(crumbs.at("error").find("in 7 pieces"), std::string::npos) << crumbs.at("error");
+  EXPECT_TRUE(holds(crumbs.at("error"), "in 7 pieces"));
   const Row& cube = shapes.at(path("v.nrrd/1"));
   EXPECT_EQ(cube.at("status"), "done");
   EXPECT_EQ(cube.at("file"), "1.ply");
@@ -261,7 +263,7 @@ TEST_F(ExtractedGrains, ThatAreCrumbsAreRefusedAndDescribedAsFailed) {
   EXPECT_NEAR(std::stod(cube.at("resolution.voxel_size [length]")), 1.0, 1e-12);
   const std::vector<std::string> lines = write_census(options, job, grains);
   ASSERT_GE(lines.size(), 2U);
-  EXPECT_NE(lines[1].find("Voxels across a grain: 9.93"), std::string::npos) << lines[1];
+  EXPECT_TRUE(holds(lines[1], "Voxels across a grain: 9.93"));
   const auto census = test::csv_rows(content("out/labels.csv"), "label");
   EXPECT_EQ(census.at("1").at("state"), "written");
   EXPECT_EQ(census.at("1").at("file"), "1.ply");

@@ -19,6 +19,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "toolbox/job/grain_files.h"
 #include "toolbox/report/sample_table.h"
@@ -30,6 +31,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 /// Grains of one point, whose x is the number of the grain. With `scans`, each is read from a file
 /// in this folder.
@@ -229,8 +231,7 @@ TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
       begun();
       FAIL() << "the files were replaced";
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("another command (wscvt-batch)"), std::string::npos)
-          << error.what();
+      EXPECT_TRUE(holds(error.what(), "another command (wscvt-batch)"));
     }
   }
   EXPECT_EQ(content("out/grains.csv"), table);
@@ -245,9 +246,7 @@ TEST_F(Job, ReplacesNoFilesOfAnotherCommand) {
       run_job(*job, grains, {1});
       FAIL() << "the table was replaced";
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("a grains.csv of another command"),
-                std::string::npos)
-          << error.what();
+      EXPECT_TRUE(holds(error.what(), "a grains.csv of another command"));
     }
     EXPECT_EQ(content("users/grains.csv"), "mine\r\n1\r\n");
     EXPECT_FALSE(fs::exists(folder_ / "users/call.json"));
@@ -436,10 +435,8 @@ TEST_F(Job, LevelsHaveTheirFilesAndTables) {
   EXPECT_EQ(made, 1);
   for (const std::string level : {"n20", "n100"}) {
     EXPECT_EQ(content("out/" + level + "/grain2.txt"), level);
-    EXPECT_NE(content("out/" + level + "/grains.csv").find("grain1.ply,failed,No grain.,\r\n"),
-              std::string::npos);
-    EXPECT_NE(content("out/" + level + "/other.csv").find("grain1.ply,failed,\r\n"),
-              std::string::npos);
+    EXPECT_TRUE(holds(content("out/" + level + "/grains.csv"), "grain1.ply,failed,No grain.,\r\n"));
+    EXPECT_TRUE(holds(content("out/" + level + "/other.csv"), "grain1.ply,failed,\r\n"));
     const std::string row = "folder/grain2.ply,done," + level + "\r\n";
     const std::string table = content("out/" + level + "/other.csv");
     EXPECT_EQ(table.substr(table.size() - row.size()), row);
@@ -533,7 +530,7 @@ TEST_F(Job, MakesWhatIsRefusedOnlyIfItTakesIt) {
     EXPECT_EQ(run_job(job, grains, {1}).failed, takes ? 0U : 1U);
     EXPECT_EQ(grains.has_pictures_, takes);
   }
-  EXPECT_NE(content("out/grains.csv").find("grain1.ply,failed,Only crumbs.,"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/grains.csv"), "grain1.ply,failed,Only crumbs.,"));
   EXPECT_EQ(content("taken/grain1.txt"), "1");
 }
 
@@ -574,9 +571,8 @@ TEST_F(Job, ReplacesNoCensusAndNoTableOfAnotherCommand) {
   GrainJob kept = number_job("kept");
   run_job(kept, grains, {1});
   fs::remove(folder_ / "kept/call.json");
-  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { run_job(kept, grains, {1}); })
-                .find("call.json is missing"),
-            std::string::npos);
+  EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { run_job(kept, grains, {1}); }),
+                    "call.json is missing"));
 }
 
 TEST_F(Job, OnlyTheGrainsOwnFailureIsInItsRow) {
@@ -604,15 +600,15 @@ TEST_F(Job, OnlyTheGrainsOwnFailureIsInItsRow) {
     EXPECT_EQ(failures, (std::vector<std::string>{"folder/grain3.ply: It breaks.",
                                                   "folder/grain4.ply: It breaks too."}));
     const std::string table = content(name + "/grains.csv");
-    EXPECT_NE(table.find("grain3.ply,failed,It breaks.,\r\n"), std::string::npos) << table;
-    EXPECT_NE(table.find("grain5.ply"), std::string::npos);
-    EXPECT_EQ(table.find("grain6.ply"), std::string::npos) << "a refusal is a row";
+    EXPECT_TRUE(holds(table, "grain3.ply,failed,It breaks.,\r\n"));
+    EXPECT_TRUE(holds(table, "grain5.ply"));
+    EXPECT_FALSE(holds(table, "grain6.ply")) << "a refusal is a row";
     // The machine is well again: the same call goes on, and counts the failures before.
     refuses = false;
     const JobEnd end = run_job(job, grains, {1});
     EXPECT_EQ(end.done, 9U);
     EXPECT_EQ(end.failed, 2U);
-    EXPECT_NE(content(name + "/grains.csv").find("grain6.ply,done"), std::string::npos);
+    EXPECT_TRUE(holds(content(name + "/grains.csv"), "grain6.ply,done"));
   }
 }
 
@@ -688,7 +684,7 @@ TEST_F(Job, OneTableHasOneUnit) {
     joined.add(std::make_unique<Sized>("mm"));
     FAIL() << "two units in one table";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("are in um, and of"), std::string::npos);
+    EXPECT_TRUE(holds(error.what(), "are in um, and of"));
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "toolbox/job/grain_files.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -64,7 +65,7 @@ TEST_F(Inputs, AreTheFilesOfFoldersPatternsAndListsInTheirOrder) {
   }
   const std::string refusal =
       test::refusal(ErrorCode::InvalidInput, [&] { files({"@" + path("lists.txt")}); });
-  EXPECT_NE(refusal.find("contains the list"), std::string::npos) << refusal;
+  EXPECT_TRUE(test::holds(refusal, "contains the list"));
   fs::create_directories(folder_ / "empty");
   EXPECT_ERROR(files({path("empty")}), InvalidInput);
 
@@ -168,7 +169,7 @@ TEST_F(Inputs, TellWhatTheirReadersWarnOf) {
   const std::vector<std::string> warnings =
       MeshGrains(path("a.stl")).read(0, false, Execution(1)).warnings;
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("has 4 bytes"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(test::holds(warnings[0], "has 4 bytes"));
   // Pictures are looked for only where they are wanted.
   MeshGrains textured(file("t.obj",
                            "mtllib lost.mtl\nv 0 0 0\nv 2 0 0\nv 0 3 0\nv 0 0 4\nvt 0 0\nvt 1 0\n"
@@ -177,7 +178,7 @@ TEST_F(Inputs, TellWhatTheirReadersWarnOf) {
   EXPECT_TRUE(textured.read(0, false, Execution(1)).warnings.empty());
   const std::vector<std::string> lost = textured.read(0, true, Execution(1)).warnings;
   ASSERT_FALSE(lost.empty());
-  EXPECT_NE(lost[0].find("lost.mtl"), std::string::npos) << lost[0];
+  EXPECT_TRUE(test::holds(lost[0], "lost.mtl"));
 }
 
 /// Three grains with a census, and what they are asked.

@@ -16,6 +16,7 @@
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/random_sample.h"
 #include "support/test_shapes.h"
 #include "toolbox/sample/grown_mesh.h"
@@ -151,7 +152,7 @@ TEST_F(GrownGrains, HaveTheNumbersOfTheirMeshesAndTheLogHasTheirMeans) {
       0U)
       << grown.lines[0];
   for (const std::string& line : grown.lines) {
-    EXPECT_EQ(line.find("Overhang"), std::string::npos) << "none has any";
+    EXPECT_FALSE(test::holds(line, "Overhang")) << "none has any";
   }
   EXPECT_EQ(number_behind(grown.lines, "intersected itself: "), static_cast<double>(redrawn));
   EXPECT_NEAR(number_behind(grown.lines, "distance to the sample ("),

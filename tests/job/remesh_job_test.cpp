@@ -16,6 +16,7 @@
 #include "support/expect_error.h"
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "toolbox/report/sample_report.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -27,6 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Row = test::CsvRow;
+using test::holds;
 
 /// An ellipsoid and a lumpy body away from the origin, and one that cannot be remeshed. Each scan
 /// has a warning, as from its file.
@@ -96,7 +98,7 @@ TEST_F(Remeshes, OfLevelsAreThoseOfTheGrainAlone) {
       const ShapeDescriptors measured = describe_shape(made, Execution(1));
       EXPECT_NEAR(measured.volume, test::pi / 6.0 * 64.0, 1e-6);
       EXPECT_EQ(grains.at(name).at("result.vertices"), std::to_string(nodes));
-      EXPECT_NE(grains.at(name).at("warnings").find("Read with care."), std::string::npos);
+      EXPECT_TRUE(holds(grains.at(name).at("warnings"), "Read with care."));
       const Row& shape = shapes.at(name);
       EXPECT_EQ(shape.at("file"), file);
       EXPECT_EQ(shape.at("nodes"), std::to_string(nodes));
@@ -143,9 +145,9 @@ TEST_F(Remeshes, OfLevelsAreThoseOfTheGrainAlone) {
     }
     const std::string page = content(level + "summary.html");
     EXPECT_EQ(page, sample_html(report, Execution(1)));
-    EXPECT_NE(page.find("All remeshes, the farthest from its scan first"), std::string::npos);
-    EXPECT_NE(page.find("id=\"forms\""), std::string::npos);
-    EXPECT_NE(page.find("<td>scans/g3</td>"), std::string::npos);
+    EXPECT_TRUE(holds(page, "All remeshes, the farthest from its scan first"));
+    EXPECT_TRUE(holds(page, "id=\"forms\""));
+    EXPECT_TRUE(holds(page, "<td>scans/g3</td>"));
   }
 }
 
@@ -175,9 +177,7 @@ TEST_F(Remeshes, HaveTheShapeOfTheirScanAtEachLevelAndWhatItsVoxelsDid) {
   EXPECT_LT(enough, 39.0);
   ASSERT_GE(lines.size(), 2U);
   EXPECT_EQ(lines[lines.size() - 2].rfind("Voxels across a grain", 0), 0U);
-  EXPECT_NE(lines.back().find(": " + std::to_string(std::lround(enough)) + " are enough"),
-            std::string::npos)
-      << lines.back();
+  EXPECT_TRUE(holds(lines.back(), ": " + std::to_string(std::lround(enough)) + " are enough"));
 }
 
 TEST_F(Remeshes, HaveTheirOwnErrorsOfFirstContactWithoutTheShapeOfTheirScan) {
@@ -222,7 +222,7 @@ TEST_F(Remeshes, CarryTheAttributesOfTheirScans) {
         "\r\n";
     file("out/labels.csv", census);
     write_summaries(job, Execution(1));
-    EXPECT_EQ(content("out/summary.html").find("id=\"forms\""), std::string::npos);
+    EXPECT_FALSE(holds(content("out/summary.html"), "id=\"forms\""));
     EXPECT_EQ(content("out/summary.html").find("1 label:") != std::string::npos,
               std::string(state) == "taken");
   }
@@ -241,7 +241,7 @@ TEST_F(Remeshes, MakeGridsOfTheScanAtEachLevel) {
     EXPECT_EQ(content("out/n40/" + kind), content("out/n30/" + kind)) << "of the same scan";
   }
   const std::string description = content("out/n40/sdf/g2.npy.json");
-  EXPECT_NE(description.find("\"scans/g2\""), std::string::npos) << description;
+  EXPECT_TRUE(holds(description, "\"scans/g2\""));
   // A description that is lost is made again, with its grain.
   fs::remove(path("out/n30/sdf/g2.npy.json"));
   run(options);

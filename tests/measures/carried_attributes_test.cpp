@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -260,7 +261,7 @@ TEST(CarriedAttributes, OfNoneAreNoneAndWrongNumbersAreRefused) {
   own.of_faces[0].values.pop_back();
   const std::string sentence =
       test::refusal(ErrorCode::InvalidInput, [&] { carried_attributes(scan, own, scan); });
-  EXPECT_NE(sentence.find("\"part\""), std::string::npos) << sentence;
+  EXPECT_TRUE(test::holds(sentence, "\"part\""));
 }
 
 }  // namespace

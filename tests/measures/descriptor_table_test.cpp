@@ -10,12 +10,15 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptor_steps.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 void expect_distinct_names(const std::vector<DescriptorValue>& rows) {
   std::set<std::string> keys;
@@ -49,7 +52,7 @@ TEST(DescriptorTable, WordsAreLabelsWithoutSettings) {
     EXPECT_EQ(first[k].label.rfind(words.substr(0, words.size() - 1), 0), 0U) << words;
     if (first[k].label != second[k].label) {
       ++different;
-      EXPECT_EQ(words.find("cut-off 0"), std::string::npos);
+      EXPECT_FALSE(holds(words, "cut-off 0"));
       EXPECT_LT(words.size(), first[k].label.size());
     }
     if (is_read_first(first[k].key)) ++read_first;
@@ -227,10 +230,10 @@ std::vector<DescriptorComparison> two_rows() {
 TEST(DescriptorTable, LinesNameTheColumns) {
   const std::vector<std::string> lines = table_lines(two_rows(), {"scan", "mesh"});
   ASSERT_EQ(lines.size(), 3U);
-  EXPECT_NE(lines[0].find("scan"), std::string::npos);
-  EXPECT_NE(lines[0].find("mesh"), std::string::npos);
+  EXPECT_TRUE(holds(lines[0], "scan"));
+  EXPECT_TRUE(holds(lines[0], "mesh"));
   EXPECT_EQ(lines[1].rfind("  volume, length^3 ", 0), 0U) << "the unit";
-  EXPECT_NE(lines[1].find("+100.000"), std::string::npos);
+  EXPECT_TRUE(holds(lines[1], "+100.000"));
   EXPECT_LT(lines[0].find("scan"), lines[0].find("mesh"));
   EXPECT_LT(lines[1].find(" 0.1 "), lines[1].find(" 0.2 ")) << lines[1];
   EXPECT_EQ(lines[2].back(), '-');

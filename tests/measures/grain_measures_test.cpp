@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 
@@ -35,7 +36,7 @@ TEST(GrainMeasures, TellsOverhangsByTheSolidAngleThatTheyCover) {
   const double directions = std::cos(60 * degree) - std::cos(70 * degree);
   const std::string text = found->text().substr(at + before.size());
   EXPECT_NEAR(std::stod(text), 100.0 * 2.0 * directions, 0.1);
-  EXPECT_NE(text.find(" % of the sphere"), std::string::npos) << text;
+  EXPECT_TRUE(test::holds(text, " % of the sphere"));
 }
 
 TEST(GrainMeasures, OfASphereHaveNothingToRemark) {

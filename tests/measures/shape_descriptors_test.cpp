@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -259,7 +260,7 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
   EXPECT_NEAR(d.sdq_half_clip, std::sqrt(half / area), 1e-9);
   const std::string told = sdq_clip_sentence("the grain", d);
   EXPECT_EQ(told.rfind("Sdq (invariant form) of the grain is not reliable", 0), 0U) << told;
-  EXPECT_NE(told.find("0.05"), std::string::npos) << told;
+  EXPECT_TRUE(test::holds(told, "0.05"));
   // A ball has no walls.
   const ShapeDescriptors sphere = describe_shape(test::sphere(3), Execution(1));
   EXPECT_EQ(sphere.sdq_clipped_fraction, 0.0);
@@ -281,8 +282,8 @@ TEST(ShapeDescriptors, SdqNamesWhatComesFromItsClip) {
   }
   changed.sdq_clipped_fraction = 0.4;
   const std::string larger = sdq_clip_sentence("the grain", changed);
-  EXPECT_NE(larger.find("Sdq is 50 % larger"), std::string::npos) << larger;
-  EXPECT_NE(larger.find("40 % of its square"), std::string::npos) << larger;
+  EXPECT_TRUE(test::holds(larger, "Sdq is 50 % larger"));
+  EXPECT_TRUE(test::holds(larger, "40 % of its square"));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "grains/ct_grain.h"
 #include "grains/marching_cubes.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "support/voxel_body.h"
 #include "wscvt/base/execution.h"
@@ -21,6 +22,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 double area_of(const IndexedMesh& mesh) {
   return mesh_sums(mesh.points, mesh.triangles, Vector3::Zero(), Execution(1)).area();
@@ -185,17 +188,17 @@ TEST(SurfaceTexture, IsToldWithTheValuesThatAreFalse) {
     return all;
   };
   const std::string steps = told(mask_surface({12, 10, 8}));
-  EXPECT_NE(steps.find("'body' has the steps of voxels"), std::string::npos) << steps;
-  EXPECT_NE(steps.find("Area, sphericity, convexity"), std::string::npos) << steps;
+  EXPECT_TRUE(holds(steps, "'body' has the steps of voxels"));
+  EXPECT_TRUE(holds(steps, "Area, sphericity, convexity"));
   const std::string noise = told(noisy(test::sphere(4), 0.02));
-  EXPECT_NE(noise.find("'body' is noisy"), std::string::npos) << noise;
-  EXPECT_NE(noise.find("Area, sphericity, convexity"), std::string::npos) << noise;
+  EXPECT_TRUE(holds(noise, "'body' is noisy"));
+  EXPECT_TRUE(holds(noise, "Area, sphericity, convexity"));
   EXPECT_EQ(told(test::sphere(4)), "");
   SurfaceTexture texture;
   texture.kind = Texture::Noise;
   texture.excess = 0.25;
   const std::string sentence = texture_sentence(texture, "it");
-  EXPECT_NE(sentence.find("at least 25 % too large"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "at least 25 % too large"));
 }
 
 }  // namespace

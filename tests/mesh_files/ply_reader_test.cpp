@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/read_content.h"
 #include "support/seeds.h"
 #include "wscvt/mesh_files/readers.h"
@@ -258,7 +259,7 @@ TEST(PlyReader, NamesTheLineOrTheElement) {
   const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
   const auto says = [](const std::string& content, const std::string& part) {
     const std::string sentence = refusal(content);
-    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    EXPECT_TRUE(test::holds(sentence, part));
   };
   says("not a mesh\n", "\"ply\"");
   says("", "\"ply\"");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/read_content.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/input_file.h"
@@ -21,7 +22,7 @@ using test::read_content;
 
 void expect_refusal(test::Reader read, const std::string& content, const std::string& part) {
   const std::string sentence = test::refusal(read, content);
-  EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+  EXPECT_TRUE(test::holds(sentence, part));
 }
 
 TEST(ObjReader, ReadsWhatOtherProgramsWrite) {

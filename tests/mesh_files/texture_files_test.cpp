@@ -10,6 +10,7 @@
 #include "support/coded_bytes.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/mesh_files/readers.h"
 
@@ -68,7 +69,7 @@ class TextureFiles : public test::FileFolder {
 /// Fails unless the picture is an error whose sentence holds `text`.
 void expect_no_picture(const std::string& path, const std::string& text) {
   const std::string sentence = test::refusal(ErrorCode::InputOutput, [&] { read_picture(path); });
-  EXPECT_NE(sentence.find(text), std::string::npos) << sentence;
+  EXPECT_TRUE(test::holds(sentence, text));
 }
 
 const std::string four_vertices = "v 0 0 0\nv 3 0 0\nv 0 5 0\nv 0 0 7\n";
@@ -142,11 +143,11 @@ TEST_F(TextureFiles, MissingFilesAreWarningsThatNameThem) {
       four_vertices + four_places + "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/3\n";
   const MeshFile no_library = scan("a.obj", "mtllib none.mtl\n" + of_faces);
   ASSERT_EQ(no_library.warnings.size(), 1U);
-  EXPECT_NE(no_library.warnings[0].find("none.mtl"), std::string::npos);
+  EXPECT_TRUE(test::holds(no_library.warnings[0], "none.mtl"));
   file("b.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd gone.png\nnewmtl c\n");
   const MeshFile no_picture = scan("b.obj", "mtllib b.mtl\n" + of_faces);
   ASSERT_EQ(no_picture.warnings.size(), 1U);
-  EXPECT_NE(no_picture.warnings[0].find("gone.png\" is not there"), std::string::npos);
+  EXPECT_TRUE(test::holds(no_picture.warnings[0], "gone.png\" is not there"));
   for (const TexturePicture& picture : no_picture.attributes.texture.pictures) {
     EXPECT_TRUE(picture.empty());
   }

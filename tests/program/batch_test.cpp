@@ -19,6 +19,7 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -28,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Records = std::vector<std::vector<std::string>>;
+using test::holds;
 
 class Batch : public test::ProgramRun {
  protected:
@@ -95,7 +97,7 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
   for (const std::string threads : {"1", "2", "5"}) {
     const Outcome outcome = run("batch scans -o out" + threads + options_ + "-t " + threads);
     EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("Failed: scans/broken.ply: "), std::string::npos);
+    EXPECT_TRUE(holds(outcome.errors, "Failed: scans/broken.ply: "));
     EXPECT_EQ(outcome.output, "");
     EXPECT_EQ(content("out" + threads + "/grains.csv"), content("out1/grains.csv"));
     EXPECT_EQ(content("out" + threads + "/shape.csv"), content("out1/shape.csv"));
@@ -107,7 +109,7 @@ TEST_F(Batch, HasTheSameBytesAtAnyNumberOfThreadsInTheOrderOfTheInputs) {
                                       scan(4), scan(5)}));
   EXPECT_EQ(column("out1/grains.csv", "status"),
             (std::vector<std::string>{"done", "done", "failed", "done", "done", "done", "done"}));
-  EXPECT_NE(column("out1/grains.csv", "error")[2].find("PLY"), std::string::npos);
+  EXPECT_TRUE(holds(column("out1/grains.csv", "error")[2], "PLY"));
   EXPECT_FALSE(exists("out1/broken.ply"));
 
   // A row and a mesh are what the grain alone would have given.
@@ -138,7 +140,7 @@ TEST_F(Batch, SumsUpTheSample) {
               1e-9);
   const std::string page = content("out/summary.html");
   for (const char* text : {"A sample of 5 grains", "equivalent radius", "<svg", "sphericity"}) {
-    EXPECT_NE(page.find(text), std::string::npos) << text;
+    EXPECT_TRUE(holds(page, text));
   }
 }
 
@@ -167,8 +169,7 @@ TEST_F(Batch, GoesOnWhereItWasKilled) {
     if (signal == SIGTERM) {
       ASSERT_TRUE(WIFEXITED(status));
       EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
-      EXPECT_NE(content("said.txt").find("Cancelled after 4 of 8 grains"), std::string::npos)
-          << content("said.txt");
+      EXPECT_TRUE(holds(content("said.txt"), "Cancelled after 4 of 8 grains"));
     }
     fs::remove(folder_ / scan(4));
     std::ofstream(folder_ / scan(4), std::ios::binary) << kept;
@@ -236,8 +237,8 @@ TEST_F(Batch, ShapesAreThoseOfDescribe) {
   EXPECT_EQ(run("batch " + scan(0) + " -o none --describe none" + remesh_options_).exit_code, 0);
   EXPECT_FALSE(exists("none/shape.csv"));
   EXPECT_EQ(run("batch " + scan(0) + " -o one --describe remesh" + remesh_options_).exit_code, 0);
-  EXPECT_EQ(content("one/shape.csv").find("scan."), std::string::npos);
-  EXPECT_NE(content("one/shape.csv").find(",remesh.volume [length^3],"), std::string::npos);
+  EXPECT_FALSE(holds(content("one/shape.csv"), "scan."));
+  EXPECT_TRUE(holds(content("one/shape.csv"), ",remesh.volume [length^3],"));
 }
 
 TEST_F(Batch, LevelsAreTheBatchesOfTheirNumbersOfNodes) {
@@ -332,10 +333,10 @@ TEST_F(Batch, GoesOnOnlyWithWhatItBeganWith) {
   const std::string before = content("out/grains.csv");
   const Outcome options = run("batch " + scan(0) + " " + scan(1) + " -o out -q -n 61 -d 6");
   EXPECT_EQ(options.exit_code, 2);
-  EXPECT_NE(options.errors.find("out/call.json"), std::string::npos) << options.errors;
+  EXPECT_TRUE(holds(options.errors, "out/call.json"));
   const Outcome inputs = run("batch " + scan(1) + " " + scan(2) + " -o out" + options_);
   EXPECT_EQ(inputs.exit_code, 2);
-  EXPECT_NE(inputs.errors.find("other inputs"), std::string::npos) << inputs.errors;
+  EXPECT_TRUE(holds(inputs.errors, "other inputs"));
   EXPECT_EQ(run("batch scans -o out -q -n 60 -d 6 --frame centred").exit_code, 2);
   EXPECT_EQ(content("out/grains.csv"), before);
   // More grains at the end are welcome.
@@ -355,7 +356,7 @@ TEST_F(Batch, OtherNumbersOfNodesAreOtherOptions) {
     const Outcome other = run("batch scans -o " + std::string(folder) + " -q -d 6 -n " + nodes +
                               " --describe remesh");
     EXPECT_EQ(other.exit_code, 2) << folder;
-    EXPECT_NE(other.errors.find(call), std::string::npos) << other.errors;
+    EXPECT_TRUE(holds(other.errors, call));
     EXPECT_EQ(content(call), before) << folder;
   }
   EXPECT_FALSE(exists("one/n40"));
@@ -375,7 +376,7 @@ TEST_F(Batch, OtherCommandsDoNotReplaceItsFiles) {
     const std::string before = content(file);
     const Outcome outcome = run(command + " -q --report " + file);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("is a file of a batch"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "is a file of a batch"));
     EXPECT_EQ(content(file), before);
   }
   EXPECT_EQ(run("sample out -q --report out/sample.csv --report shape.csv").exit_code, 0);
@@ -390,7 +391,7 @@ TEST_F(Batch, OtherCommandsDoNotReplaceFilesOfItsGrains) {
     const std::string before = content(file);
     const Outcome outcome = run(std::string("remesh scans/a.ply ") + file + " -n 50 -q");
     EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("is a file of a batch"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "is a file of a batch"));
     EXPECT_EQ(content(file), before);
   }
   const std::string nodes = content("out/node-table/a.csv");
@@ -419,8 +420,7 @@ TEST_F(Batch, OtherCommandsDoNotReplaceTables) {
          {"remesh scans/a.ply o.ply -n 40 -q --node-table ", "clump scans/a.ply -k 2 -q -o "}) {
       const Outcome outcome = run(call + name);
       EXPECT_EQ(outcome.exit_code, 2) << outcome.errors;
-      EXPECT_NE(outcome.errors.find("is a table of another command"), std::string::npos)
-          << outcome.errors;
+      EXPECT_TRUE(holds(outcome.errors, "is a table of another command"));
     }
     EXPECT_EQ(content(name), before);
   }
@@ -447,8 +447,7 @@ TEST_F(Batch, NamesOfAnyLengthAreRemeshed) {
 TEST_F(Batch, SaysThatAnInputIsNotThere) {
   const Outcome outcome = run("batch nowhere -o out");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("There is no file and no folder \"nowhere\""), std::string::npos)
-      << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "There is no file and no folder \"nowhere\""));
 }
 
 TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
@@ -480,7 +479,7 @@ TEST_F(Batch, TakesFilesFoldersPatternsAndLists) {
     fs::create_directory(folder_ / "out2");
     const Outcome refused = run("batch " + call.inputs + options_);
     EXPECT_EQ(refused.exit_code, call.inputs.find("@no.txt") == std::string::npos ? 2 : 1);
-    EXPECT_NE(refused.errors.find(call.part_of_the_sentence), std::string::npos) << refused.errors;
+    EXPECT_TRUE(holds(refused.errors, call.part_of_the_sentence));
     EXPECT_TRUE(fs::is_empty(folder_ / "out2"));
   }
   EXPECT_EQ(run("batch scans -o out2 --shard 3/2").exit_code, 2);
@@ -512,8 +511,8 @@ TEST_F(Batch, PartsAreStableAndTheSameCallJoinsThem) {
     const Outcome joined =
         run("batch scans -o " + out + std::regex_replace(options_, std::regex(" -q"), ""));
     EXPECT_EQ(joined.exit_code, 3) << joined.errors;
-    EXPECT_NE(joined.output.find("1 failed"), std::string::npos);
-    EXPECT_NE(joined.errors.find("Failed: scans/broken.ply: "), std::string::npos);
+    EXPECT_TRUE(holds(joined.output, "1 failed"));
+    EXPECT_TRUE(holds(joined.errors, "Failed: scans/broken.ply: "));
     EXPECT_FALSE(exists(out + "/grain3.ply"));
     for (const std::string file : {"/grains.csv", "/shape.csv", "/summary.json"}) {
       EXPECT_EQ(content(out + file), content("whole" + file)) << file;
@@ -524,7 +523,7 @@ TEST_F(Batch, PartsAreStableAndTheSameCallJoinsThem) {
   ASSERT_LE(run("batch scans -o mixed -q -n 61 -d 6 --shard 1/2").exit_code, 3);
   const Outcome other = run(std::string("batch scans -o mixed") + options_);
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_NE(other.errors.find("call-1-of-2.json"), std::string::npos) << other.errors;
+  EXPECT_TRUE(holds(other.errors, "call-1-of-2.json"));
   EXPECT_FALSE(exists("mixed/grains.csv"));
   // Of a part that was cut, the whole makes what is missing.
   const std::string part = content("out2/grains-1-of-2.csv");
@@ -578,7 +577,7 @@ TEST_F(Batch, TwoDoNotWriteOneTable) {
   wait_for_rows("out/grains.csv", 2);
   const Outcome second = run(std::string("batch scans -o out") + options_);
   EXPECT_EQ(second.exit_code, 1);
-  EXPECT_NE(second.errors.find("another batch"), std::string::npos) << second.errors;
+  EXPECT_TRUE(holds(second.errors, "another batch"));
   kill(child, SIGKILL);
   int status = 0;
   EXPECT_EQ(waitpid(child, &status, 0), child);

@@ -6,11 +6,14 @@
 #include <vector>
 
 #include "program_run.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class ClumpProgram : public test::ProgramRun {
  protected:
@@ -28,26 +31,23 @@ TEST_F(ClumpProgram, WritesReportsAndIsCompared) {
       "clump scan.ply -k 4 -o c.csv -o c.mclump -o c.molecule --density 3 --report r.html --report "
       "r.json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("first contact"), std::string::npos);
-  EXPECT_NE(outcome.output.find("Files       \"c.csv\"\n            \"c.mclump\"\n"),
-            std::string::npos)
-      << outcome.output;
-  EXPECT_NE(outcome.output.find("\nTime        "), std::string::npos) << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "first contact"));
+  EXPECT_TRUE(holds(outcome.output, "Files       \"c.csv\"\n            \"c.mclump\"\n"));
+  EXPECT_TRUE(holds(outcome.output, "\nTime        "));
   EXPECT_TRUE(exists("c.mclump/Inertia/TOI.txt"));
-  EXPECT_NE(content("c.molecule").find("density 3\n"), std::string::npos);
-  EXPECT_NE(content("r.html").find("Distance of clump to scan"), std::string::npos);
-  EXPECT_NE(content("r.json").find("\"scatter_percent\""), std::string::npos);
+  EXPECT_TRUE(holds(content("c.molecule"), "density 3\n"));
+  EXPECT_TRUE(holds(content("r.html"), "Distance of clump to scan"));
+  EXPECT_TRUE(holds(content("r.json"), "\"scatter_percent\""));
   const Outcome compared = run("describe c.csv scan.ply -v");
   EXPECT_EQ(compared.exit_code, 0) << compared.errors;
-  EXPECT_NE(compared.output.find("root mean square, from the reference"), std::string::npos);
+  EXPECT_TRUE(holds(compared.output, "root mean square, from the reference"));
   // A point cloud of centres is no grain.
   for (const char* call : {"remesh c.csv out.ply -n 100", "remesh c.csv out.ply -n 100 --points",
                            "convex c.csv -o parts.obj", "clump c.csv -k 2 -o d.csv",
                            "batch c.csv -o out -n 100", "describe scan.ply c.csv"}) {
     const Outcome refused = run(call);
     EXPECT_NE(refused.exit_code, 0) << call;
-    EXPECT_NE(refused.errors.find("wscvt describe CLUMP.csv SCAN"), std::string::npos)
-        << call << ": " << refused.errors;
+    EXPECT_TRUE(holds(refused.errors, "wscvt describe CLUMP.csv SCAN")) << call;
   }
 }
 
@@ -57,7 +57,7 @@ TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
   const std::string table = content("out/grains.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
   EXPECT_TRUE(exists("out/a.csv"));
-  EXPECT_NE(table.find("torn.ply,failed,"), std::string::npos) << table;
+  EXPECT_TRUE(holds(table, "torn.ply,failed,"));
   // Cut within its second row, as by a kill.
   const std::size_t second = table.find("scans/b.ply");
   std::ofstream(folder_ / "out/grains.csv", std::ios::binary) << table.substr(0, second + 20);
@@ -73,7 +73,7 @@ TEST_F(ClumpProgram, ASampleGoesOnAndIsParted) {
   ASSERT_EQ(run("clump scans -k 2 -o parts -q").exit_code, 3);
   EXPECT_EQ(content("parts/grains.csv"), table);
   EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule --density 3").exit_code, 3);
-  EXPECT_NE(content("molecules/b.molecule").find("density 3\n"), std::string::npos);
+  EXPECT_TRUE(holds(content("molecules/b.molecule"), "density 3\n"));
   EXPECT_EQ(run("clump scans -k 2 -o molecules -q --format molecule").exit_code, 2);
 }
 
@@ -96,12 +96,12 @@ TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
   EXPECT_EQ(content("out/a_1.obj"), content("a_1.obj"));
   const std::string table = content("out/grains.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4);
-  EXPECT_NE(table.find("torn.ply,failed,"), std::string::npos) << table;
+  EXPECT_TRUE(holds(table, "torn.ply,failed,"));
   // The row is that of the report, but for the date.
   const std::string row = content("a.csv").substr(content("a.csv").find("\r\n") + 2);
   const std::string numbers = row.substr(row.find(",202") + 11);
   EXPECT_NE(numbers.find(','), std::string::npos) << row;
-  EXPECT_NE(table.find(numbers), std::string::npos) << row;
+  EXPECT_TRUE(holds(table, numbers)) << row;
   // Cut within its second row, as by a kill; and in parts.
   std::ofstream(folder_ / "out/grains.csv", std::ios::binary)
       << table.substr(0, table.find("scans/b.ply") + 20);
@@ -132,18 +132,18 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
       "clump scans -k 2 -o out --size 0.2 --engine lammps --size-curve curve.csv";
   const Outcome outcome = run(call);
   ASSERT_EQ(outcome.exit_code, 3) << outcome.errors;
-  EXPECT_NE(outcome.output.find("cd out && python3 run.py"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "cd out && python3 run.py"));
   EXPECT_EQ(content("out/sizes.csv"), content("curve.csv"));
-  EXPECT_NE(content("out/run.py").find("import packing"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/run.py"), "import packing"));
   EXPECT_TRUE(exists("out/packing.py"));
   const std::string scene = content("out/scene.json");
-  EXPECT_NE(scene.find("\"grain\": \"scans/b.ply\""), std::string::npos) << scene;
-  EXPECT_NE(scene.find("\"file\": \"b.csv\""), std::string::npos) << scene;
-  EXPECT_NE(scene.find("\"size\": 0.2"), std::string::npos) << scene;
+  EXPECT_TRUE(holds(scene, "\"grain\": \"scans/b.ply\""));
+  EXPECT_TRUE(holds(scene, "\"file\": \"b.csv\""));
+  EXPECT_TRUE(holds(scene, "\"size\": 0.2"));
   EXPECT_TRUE(exists("out/b.csv"));
-  EXPECT_NE(scene.find("\"density\": 2650.0"), std::string::npos) << scene;
+  EXPECT_TRUE(holds(scene, "\"density\": 2650.0"));
   ASSERT_EQ(run("clump scans -k 2 -o dense --engine lammps --density 1").exit_code, 3);
-  EXPECT_NE(content("dense/scene.json").find("\"density\": 1.0"), std::string::npos);
+  EXPECT_TRUE(holds(content("dense/scene.json"), "\"density\": 1.0"));
   // What a person changed stays.
   std::ofstream(path("out/scene.json")) << "{}";
   EXPECT_EQ(run(call).exit_code, 3);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "program_run.h"
+#include "support/holds.h"
 #include "wscvt/base/version.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -27,6 +28,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 class CommandLine : public test::ProgramRun {
  protected:
@@ -81,7 +83,7 @@ TEST_F(CommandLine, HelpIsAsWideAsTheTerminal) {
     EXPECT_LE(widest(shown({command, "--help"}, 200, "70")), 70U);
   }
   // A call that is broken runs when it is copied.
-  EXPECT_NE(shown({"clump", "--help"}, 70).find(" \\\n      "), std::string::npos);
+  EXPECT_TRUE(holds(shown({"clump", "--help"}, 70), " \\\n      "));
 }
 
 TEST_F(CommandLine, SentencesAreBrokenOnATerminalOnly) {
@@ -167,8 +169,8 @@ TEST_F(CommandLine, RemeshesToTheExactCount) {
   const IndexedMesh mesh = read_mesh(path("remesh.ply"));
   EXPECT_EQ(mesh.points.size(), 300U);
   EXPECT_EQ(mesh.triangles.size(), 596U);
-  EXPECT_NE(outcome.output.find("300 nodes, 596 faces"), std::string::npos) << outcome.output;
-  EXPECT_NE(content("report.json").find("wscvt-report"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.output, "300 nodes, 596 faces"));
+  EXPECT_TRUE(holds(content("report.json"), "wscvt-report"));
 }
 
 TEST_F(CommandLine, WritesReportsByTheirEndings) {
@@ -180,15 +182,15 @@ TEST_F(CommandLine, WritesReportsByTheirEndings) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   }
   const std::string page = content("page.html");
-  EXPECT_NE(page.find("sand_7228.ply with 120 nodes</title>"), std::string::npos);
-  EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
+  EXPECT_TRUE(holds(page, "sand_7228.ply with 120 nodes</title>"));
+  EXPECT_TRUE(holds(page, "data:image/png;base64,"));
   const auto is_of_today = [&](std::time_t now) {
     std::array<char, 16> today{};
     std::strftime(today.data(), today.size(), "%Y-%m-%d", std::localtime(&now));
     return std::regex_search(page, std::regex("by wscvt [0-9.]+ on " + std::string(today.data())));
   };
   EXPECT_TRUE(is_of_today(before) || is_of_today(std::time(nullptr)));
-  EXPECT_NE(content("all.json").find("sand_7228.ply\""), std::string::npos);
+  EXPECT_TRUE(holds(content("all.json"), "sand_7228.ply\""));
   const std::string table = content("table.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
   // What cannot become a report is refused before the work, of a million nodes here.
@@ -198,7 +200,7 @@ TEST_F(CommandLine, WritesReportsByTheirEndings) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run(sand_ + " remesh.ply -n 1000000 --report " + bad);
     EXPECT_EQ(outcome.exit_code, bad == "no/page.html" ? 1 : 2);
-    EXPECT_NE(outcome.errors.find(bad), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, bad));
   }
   EXPECT_EQ(content("other.csv"), "a,b\r\n");
 }
@@ -234,7 +236,7 @@ TEST_F(CommandLine, TellsWhatACommandOrTheProgramLacks) {
         {"sample a b c", "3 samples are given. Give one sample, or two to compare."}}) {
     const Outcome outcome = run(call);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, words));
   }
 }
 
@@ -246,8 +248,7 @@ TEST_F(CommandLine, NeverReplacesTheScan) {
   for (const std::string output : {"./scan.ply", "link.ply", "hard.ply"}) {
     const Outcome outcome = run("scan.ply " + output + " -n 100");
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find("the scan itself. Give another name"), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "the scan itself. Give another name"));
     EXPECT_EQ(content("scan.ply"), before);
   }
   fs::create_symlink("scan.ply", folder_ / "scan.json");
@@ -260,7 +261,7 @@ TEST_F(CommandLine, WritesWhereItsPathsLead) {
   fs::create_symlink("remesh.ply", folder_ / "link.json");
   const Outcome dangling = run(sand_ + " remesh.ply -n 100 --report link.json");
   EXPECT_EQ(dangling.exit_code, 2);
-  EXPECT_NE(dangling.errors.find("two names"), std::string::npos) << dangling.errors;
+  EXPECT_TRUE(holds(dangling.errors, "two names"));
   fs::create_symlink("/dev/null", folder_ / "null.json");
   const Outcome null =
       run(sand_ + " remesh.ply -n 100 -q --report null.json --coefficients /dev/null");
@@ -273,7 +274,7 @@ TEST_F(CommandLine, WritesWhereItsPathsLead) {
   const Outcome both = run(sand_ + " remesh.ply -n 100 --report out.json");
   EXPECT_EQ(both.exit_code, 0) << both.errors;
   EXPECT_EQ(both.output.front(), '{');
-  EXPECT_NE(both.output.find("100 nodes, 196 faces"), std::string::npos);
+  EXPECT_TRUE(holds(both.output, "100 nodes, 196 faces"));
 }
 
 TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
@@ -283,7 +284,7 @@ TEST_F(CommandLine, ChecksItsPathsBeforeTheWork) {
     SCOPED_TRACE(bad);
     const Outcome outcome = run("missing.ply " + bad + " -n 1000000");
     EXPECT_EQ(outcome.exit_code, bad == "remesh.step" ? 2 : 1);
-    EXPECT_EQ(outcome.errors.find("missing.ply"), std::string::npos) << outcome.errors;
+    EXPECT_FALSE(holds(outcome.errors, "missing.ply"));
   }
 }
 
@@ -298,7 +299,7 @@ TEST_F(CommandLine, NoTwoOutputsHaveOneName) {
       SCOPED_TRACE(call);
       const Outcome outcome = run(call);
       EXPECT_EQ(outcome.exit_code, 2);
-      EXPECT_NE(outcome.errors.find("Give two names"), std::string::npos) << outcome.errors;
+      EXPECT_TRUE(holds(outcome.errors, "Give two names"));
     }
   }
 }
@@ -308,7 +309,7 @@ TEST_F(CommandLine, AStandardOutputThatTakesNothingIsAnError) {
     SCOPED_TRACE(where);
     const Outcome outcome = run(sand_ + " remesh.ply -n 100" + where + " 2>errors.txt #");
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(content("errors.txt").find("/dev/stdout"), std::string::npos);
+    EXPECT_TRUE(holds(content("errors.txt"), "/dev/stdout"));
     EXPECT_EQ(run("--help" + where + " 2>errors.txt #").exit_code, 1);
   }
   // Closed streams do not take what is meant for a file.
@@ -320,7 +321,7 @@ TEST_F(CommandLine, QuietHidesNoWarning) {
   const Outcome outcome = run(sand_ + " remesh.ply -n 4 -q");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.output, "");
-  EXPECT_NE(outcome.errors.find("Warning: "), std::string::npos);
+  EXPECT_TRUE(holds(outcome.errors, "Warning: "));
   EXPECT_EQ(outcome.errors.find('\r'), std::string::npos) << "progress went into a file";
 }
 
@@ -330,10 +331,10 @@ TEST_F(CommandLine, TakesPointsOnlyWhenTold) {
   write_mesh(points, (folder_ / "points.ply").string());
   const Outcome refused = run("points.ply remesh.ply -n 100");
   EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.errors.find("--points"), std::string::npos) << refused.errors;
+  EXPECT_TRUE(holds(refused.errors, "--points"));
   const Outcome told = run("points.ply remesh.ply -n 100 --points");  // the advice
   EXPECT_EQ(told.exit_code, 0) << told.errors;
-  EXPECT_NE(told.errors.find("read as points"), std::string::npos) << told.errors;
+  EXPECT_TRUE(holds(told.errors, "read as points"));
 }
 
 /// Starts the program in a folder, where said.txt gets what it says on the standard error.
@@ -375,7 +376,7 @@ TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
         << "something is left beside the scan and what the program said";
     const std::string said = content("said.txt");
     EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
-    EXPECT_NE(said.find(". Nothing was written.\n"), std::string::npos) << said;
+    EXPECT_TRUE(holds(said, ". Nothing was written.\n"));
   }
 }
 
@@ -422,8 +423,8 @@ TEST_F(CommandLine, ACancelledCreationSaysWhereItWas) {
   EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
   const std::string said = content("said.txt");
   EXPECT_EQ(said.rfind("Cancelled", 0), 0U) << said;
-  EXPECT_EQ(said.find(": ."), std::string::npos) << said;
-  EXPECT_NE(said.find(". Nothing was written.\n"), std::string::npos) << said;
+  EXPECT_FALSE(holds(said, ": ."));
+  EXPECT_TRUE(holds(said, ". Nothing was written.\n"));
   EXPECT_FALSE(exists("made.ply"));
 }
 
@@ -443,8 +444,7 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   EXPECT_FALSE(exists("grid.npy"));
   const std::string said = content("said.txt");
   EXPECT_EQ(said.rfind("Cancelled during: ", 0), 0U) << said;
-  EXPECT_NE(said.find(". Written before that: \"remesh.ply\", \"nodes.csv\".\n"), std::string::npos)
-      << said;
+  EXPECT_TRUE(holds(said, ". Written before that: \"remesh.ply\", \"nodes.csv\".\n"));
 }
 
 TEST_F(CommandLine, SeveralScansAreABatch) {
@@ -475,8 +475,7 @@ TEST_F(CommandLine, SeveralScansAreABatch) {
     SCOPED_TRACE(call.words);
     const Outcome outcome = run(call.words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("This is \"wscvt " + call.as_batch + "\""), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "This is \"wscvt " + call.as_batch + "\""));
     const std::string out = call.words.substr(call.words.find("out."), 5);
     std::size_t remeshes = 0;
     for (const auto& file : std::filesystem::directory_iterator(folder_ / out)) {
@@ -493,9 +492,7 @@ TEST_F(CommandLine, SeveralScansAreABatch) {
        std::vector<std::string>{all, "scans scans/d.ply", "scans new.ply", all + "new.ply"}) {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, 2) << words;
-    EXPECT_NE(outcome.errors.find("is the name of a file. Put the name of a folder last"),
-              std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "is the name of a file. Put the name of a folder last"));
   }
   EXPECT_EQ(content("scans/d.ply"), scan);
   EXPECT_FALSE(exists("new.ply"));
@@ -507,24 +504,22 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
     EXPECT_EQ(call.exit_code, 2) << words;
     return call.errors;
   };
-  EXPECT_NE(refusal("remsh a.ply b.ply").find("Did you mean remesh?"), std::string::npos);
-  EXPECT_NE(refusal("descirbe a.ply").find("Did you mean describe?"), std::string::npos);
-  EXPECT_EQ(refusal("simplify a.ply b.ply").find("Did you mean"), std::string::npos);
-  EXPECT_NE(refusal("help remsh").find("Did you mean remesh?"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("remsh a.ply b.ply"), "Did you mean remesh?"));
+  EXPECT_TRUE(holds(refusal("descirbe a.ply"), "Did you mean describe?"));
+  EXPECT_FALSE(holds(refusal("simplify a.ply b.ply"), "Did you mean"));
+  EXPECT_TRUE(holds(refusal("help remsh"), "Did you mean remesh?"));
   std::filesystem::create_directory(folder_ / "scans.d");
-  EXPECT_NE(refusal("scans.d").find("wscvt batch scans.d -o OUT"), std::string::npos);
-  EXPECT_NE(refusal("scans.d -n 300").find("wscvt batch scans.d -o OUT"), std::string::npos);
-  EXPECT_NE(refusal("a.ply b.ply --noeds=5").find("Did you mean --nodes?"), std::string::npos);
-  EXPECT_NE(refusal("describe a.ply --nodes 5").find("wscvt describe has no option --nodes."),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal("scans.d"), "wscvt batch scans.d -o OUT"));
+  EXPECT_TRUE(holds(refusal("scans.d -n 300"), "wscvt batch scans.d -o OUT"));
+  EXPECT_TRUE(holds(refusal("a.ply b.ply --noeds=5"), "Did you mean --nodes?"));
+  EXPECT_TRUE(holds(refusal("describe a.ply --nodes 5"), "wscvt describe has no option --nodes."));
   // Only what the help of the command shows is proposed.
-  EXPECT_NE(refusal("remesh a.ply b.ply --helpall").find("Did you mean --help-all?"),
-            std::string::npos);
-  EXPECT_EQ(refusal("sample a.csv --helpall").find("Did you mean"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("remesh a.ply b.ply --helpall"), "Did you mean --help-all?"));
+  EXPECT_FALSE(holds(refusal("sample a.csv --helpall"), "Did you mean"));
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);
-  EXPECT_NE(run("-v none.ply b.ply").errors.find("none.ply"), std::string::npos) << "--verbose";
+  EXPECT_TRUE(holds(run("-v none.ply b.ply").errors, "none.ply")) << "--verbose";
 }
 
 }  // namespace

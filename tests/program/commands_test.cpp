@@ -15,6 +15,7 @@
 #include "program_run.h"
 #include "support/coded_bytes.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "toolbox/resolution/mesh_voxels.h"
@@ -31,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+using test::holds;
 
 class Commands : public test::ProgramRun {
  protected:
@@ -137,8 +139,8 @@ TEST_F(Commands, RemeshAndBatchTakeColoursFromThePictureOfAnObj) {
       << test::tga_picture(60, 48, colours);
   const Outcome done = run("remesh scans/stone.obj remesh.ply -n 200");
   if (done.errors.find("libstb-dev") != std::string::npos) GTEST_SKIP();
-  EXPECT_NE(missing.errors.find("stone.tga"), std::string::npos) << missing.errors;
-  EXPECT_EQ(done.errors.find("stone.tga"), std::string::npos) << done.errors;
+  EXPECT_TRUE(holds(missing.errors, "stone.tga"));
+  EXPECT_FALSE(holds(done.errors, "stone.tga"));
   ASSERT_EQ(run("batch scans -o out -n 200 -q").exit_code, 0);
   for (const char* name : {"remesh.ply", "out/stone.ply"}) {
     const MeshFile remesh = read_mesh_file(path(name));
@@ -166,12 +168,12 @@ TEST_F(Commands, HelpOfEachFitsOnAScreenWithExamplesAndExitCodes) {
     const std::vector<std::string> lines = lines_of(help.output);
     EXPECT_LE(lines.size(), 45U) << help.output;
     for (const std::string& line : lines) EXPECT_LE(line.size(), 100U) << line;
-    EXPECT_NE(help.output.find("Exit codes: 0 done"), std::string::npos);
+    EXPECT_TRUE(holds(help.output, "Exit codes: 0 done"));
     const auto examples = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
       return line.rfind("  wscvt " + command, 0) == 0;
     });
     EXPECT_GE(examples, 2);
-    EXPECT_EQ(help.output.find("x)\n"), std::string::npos) << "a word of the parser";
+    EXPECT_FALSE(holds(help.output, "x)\n")) << "a word of the parser";
   }
 }
 
@@ -200,20 +202,20 @@ TEST_F(Commands, EachHasAManualPageOfItsHelp) {
     const std::string page = content("pages/wscvt-" + command + ".1");
     ASSERT_EQ(page.rfind(".TH \"WSCVT", 0), 0U);
     for (const char* part : {"SYNOPSIS", "OPTIONS", "EXAMPLES", "EXIT STATUS"}) {
-      EXPECT_NE(page.find(".SH \"" + std::string(part) + "\"\n"), std::string::npos) << part;
+      EXPECT_TRUE(holds(page, ".SH \"" + std::string(part) + "\"\n")) << part;
     }
     // Every call of the examples is a line that is kept as it is.
     for (const std::string& line : lines_of(run(command + " --help").output)) {
       if (line.rfind("  wscvt ", 0) != 0) continue;
       const std::string call = std::regex_replace(line, std::regex("-"), "\\-");
-      EXPECT_NE(page.find("\n" + call + "\n"), std::string::npos) << call;
+      EXPECT_TRUE(holds(page, "\n" + call + "\n")) << call;
     }
   }
   const std::string page = content("pages/wscvt-remesh.1");
-  EXPECT_NE(page.find("\\-w,\\-\\-weighting"), std::string::npos);
-  EXPECT_NE(page.find(".RS\n.TP\n\\fBwscvt\\-c\\fR\n"), std::string::npos);
-  EXPECT_NE(page.find(" Default: 1.1 (on\\-scan)\n"), std::string::npos);
-  EXPECT_NE(content("pages/wscvt.1").find("\\fBwscvt\\-remesh\\fR(1)"), std::string::npos);
+  EXPECT_TRUE(holds(page, "\\-w,\\-\\-weighting"));
+  EXPECT_TRUE(holds(page, ".RS\n.TP\n\\fBwscvt\\-c\\fR\n"));
+  EXPECT_TRUE(holds(page, " Default: 1.1 (on\\-scan)\n"));
+  EXPECT_TRUE(holds(content("pages/wscvt.1"), "\\fBwscvt\\-remesh\\fR(1)"));
   EXPECT_EQ(run("--man-pages /proc/none").exit_code, 1);
 }
 
@@ -339,14 +341,13 @@ TEST_F(Commands, ReportsTheIntersectionsOfTheFile) {
   fs::create_directory(folder_ / "far");
   fs::rename(folder_ / "far.ply", folder_ / "far" / "far.ply");
   ASSERT_EQ(run("batch far -o out -q -n 300 --format stl").exit_code, 0);
-  EXPECT_NE(content("out/grains.csv").find(std::to_string(rounded) + " pairs of triangles"),
-            std::string::npos);
+  EXPECT_TRUE(holds(content("out/grains.csv"), std::to_string(rounded) + " pairs of triangles"));
 }
 
 TEST_F(Commands, AMisspeltOneIsNamedWithTheChoices) {
   const Outcome outcome = run("remehs scan.ply new.ply");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("\"remehs\". Give remesh, "), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "\"remehs\". Give remesh, "));
   EXPECT_EQ(run("").exit_code, 2);
   for (const std::string& command : commands()) {
     SCOPED_TRACE(command);
@@ -369,7 +370,7 @@ TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
   made.erase("date");
   EXPECT_EQ(made, expected);
   EXPECT_EQ(test::csv_records(content("table.csv")).size(), 2U);
-  EXPECT_NE(content("page.html").find("<svg"), std::string::npos);
+  EXPECT_TRUE(holds(content("page.html"), "<svg"));
 
   const Outcome loud = run("describe scan.ply --roundness-ball 0.4 --roughness-cutoff 0.9 -v");
   EXPECT_EQ(loud.exit_code, 0) << loud.errors;
@@ -382,7 +383,7 @@ TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
   EXPECT_EQ(loud.output.substr(0, loud.output.find("Time ")), text);
   const Outcome refused = run("describe scan.ply --roundness-ball 0");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("ball of roundness"), std::string::npos) << refused.errors;
+  EXPECT_TRUE(holds(refused.errors, "ball of roundness"));
 }
 
 TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
@@ -409,14 +410,13 @@ TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
   ASSERT_EQ(records.size(), 3U);  // a second row fits below the first
   EXPECT_EQ(records[1], records[2]);
   EXPECT_EQ(run("describe voxels.ply -q --report table.csv").exit_code, 2);  // other columns
-  EXPECT_NE(content("page.html").find("<th>corrected</th>"), std::string::npos);
+  EXPECT_TRUE(holds(content("page.html"), "<th>corrected</th>"));
   const Outcome loud = run("describe voxels.ply --voxel-size " + size);
-  EXPECT_NE(loud.output.find("25 voxels across"), std::string::npos) << loud.output;
-  EXPECT_NE(loud.output.find("Not resolved: Sq."), std::string::npos) << loud.output;
+  EXPECT_TRUE(holds(loud.output, "25 voxels across"));
+  EXPECT_TRUE(holds(loud.output, "Not resolved: Sq."));
   EXPECT_EQ(run("describe voxels.ply --voxel-size 0").exit_code, 2);
   const Outcome other = run("describe scan.ply --voxel-size " + size);
-  EXPECT_NE(other.output.find("Nothing is resolved: the mesh does not show"), std::string::npos)
-      << other.output;
+  EXPECT_TRUE(holds(other.output, "Nothing is resolved: the mesh does not show"));
 }
 
 TEST_F(Commands, DescribeMeasuresAgainstTheReference) {
@@ -437,7 +437,7 @@ TEST_F(Commands, DescribeMeasuresAgainstTheReference) {
   fs::create_symlink("scan.ply", folder_ / "link.json");
   const Outcome over = run("describe remesh.ply scan.ply --report link.json");
   EXPECT_EQ(over.exit_code, 2);
-  EXPECT_NE(over.errors.find("the reference itself"), std::string::npos) << over.errors;
+  EXPECT_TRUE(holds(over.errors, "the reference itself"));
 }
 
 TEST_F(Commands, CreateMakesTheSurfaceOfItsFormula) {

@@ -11,6 +11,7 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/mesh.h"
@@ -21,6 +22,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 class Extract : public test::ProgramRun {
  protected:
@@ -59,8 +61,7 @@ TEST_F(Extract, OfNoGrainSaysWhyAndIsNotDone) {
     EXPECT_EQ(outcome.errors,
               "Warning: No label is a grain to mesh: of 2 labels 2 lie at the border. Give "
               "--at-border.\n");
-    EXPECT_NE(outcome.output.find("2 labels: 0 written, 2 at the border"), std::string::npos)
-        << outcome.output;
+    EXPECT_TRUE(holds(outcome.output, "2 labels: 0 written, 2 at the border"));
   }
   const Outcome walls = run("extract cut.nrrd walls --edge-length 4");
   EXPECT_EQ(walls.exit_code, 1);
@@ -73,10 +74,8 @@ TEST_F(Extract, MakesAMeshALabelAndListsTheOthers) {
   write_sample();
   const Outcome outcome = run("extract sample.nrrd out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(
-      outcome.output.find("5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n"),
-      std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(
+      holds(outcome.output, "5 labels: 3 written (1 in pieces), 1 at the border, 1 too small\n"));
   EXPECT_EQ(
       outcome.errors.rfind("Warning: 1 label of 3 is in several parts. Only the largest part of "
                            "each label is used. The others, 0.512 % of all voxels, are left out. "
@@ -155,23 +154,21 @@ TEST_F(Extract, RemeshesAllGrainsAtOnceWithCommonWalls) {
   EXPECT_NEAR(std::stod(walls.at("3").at("x")), 15.5, 0.5);
   EXPECT_NEAR(std::stod(walls.at("3").at("y")), 15.0, 0.5);
   EXPECT_EQ(content("out/walls.vtu").rfind("<?xml", 0), 0U);
-  EXPECT_NE(content("out/walls.msh").find("\"wall_3_8\""), std::string::npos);
-  EXPECT_NE(content("out/walls.msh").find("\"grain_8\""), std::string::npos);
+  EXPECT_TRUE(holds(content("out/walls.msh"), "\"wall_3_8\""));
+  EXPECT_TRUE(holds(content("out/walls.msh"), "\"grain_8\""));
   // Tables of others stay, and with them what they name.
   for (const char* call : {"extract pair.nrrd out", "describe pair.nrrd -o out"}) {
-    EXPECT_NE(run(call).errors.find("a grains.csv of another command"), std::string::npos) << call;
+    EXPECT_TRUE(holds(run(call).errors, "a grains.csv of another command")) << call;
   }
   EXPECT_EQ(rows("out/grains.csv", "grain"), grains);
   // A call over the meshes of another segmentation leaves none of them.
   volume_.fill_ball(3, {42, 30, 30}, 12.0);
   test::write_bytes(folder_ / "one.nrrd", test::nrrd(volume_, "spacings: 0.5 0.5 0.5\n"));
   const Outcome again = run("extract one.nrrd out --edge-length 1.5");
-  EXPECT_NE(again.output.find("1 file of the earlier call removed"), std::string::npos)
-      << again.output;
+  EXPECT_TRUE(holds(again.output, "1 file of the earlier call removed"));
   EXPECT_FALSE(exists("out/8.ply"));
   ASSERT_EQ(run("extract pair.nrrd plain").exit_code, 0);
-  EXPECT_NE(run("extract one.nrrd plain").output.find("1 file of the earlier call removed"),
-            std::string::npos);
+  EXPECT_TRUE(holds(run("extract one.nrrd plain").output, "1 file of the earlier call removed"));
   EXPECT_FALSE(exists("plain/8.ply"));
   EXPECT_TRUE(exists("plain/3.ply"));
   ASSERT_EQ(run("extract pair.nrrd few -n 150").exit_code, 0);
@@ -199,8 +196,7 @@ TEST_F(Extract, ReplacesNoMeshesOfAnotherSample) {
         "batch sample.nrrd -o labels -n 60,80"}) {
     const Outcome outcome = run(call);
     EXPECT_EQ(outcome.exit_code, 2) << call << outcome.errors;
-    EXPECT_NE(outcome.errors.find("has the results of another command ("), std::string::npos)
-        << call << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "has the results of another command (")) << call;
   }
   EXPECT_EQ(content("labels/3.ply"), label);
   EXPECT_EQ(content("bodies/3.ply"), body);
@@ -223,8 +219,7 @@ TEST_F(Extract, LengthsOfTwoUnitsAreInNoTable) {
                     test::nrrd(volume_, "spacings: 500 500 500\nspace units: \"um\"\n"));
   const Outcome outcome = run("batch mm.nrrd um.nrrd -o both -n 40");
   EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_NE(outcome.errors.find("are in mm, and of \"um.nrrd\" in um"), std::string::npos)
-      << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "are in mm, and of \"um.nrrd\" in um"));
   EXPECT_FALSE(exists("both"));
 }
 
@@ -235,9 +230,8 @@ TEST_F(Extract, SaysThatAMaskHasPartsAndTakesThemAsGrains) {
   for (const std::string call : {"extract mask.nrrd out", "batch mask.nrrd -o remeshed -n 60"}) {
     const Outcome outcome = run(call + " -q");
     EXPECT_EQ(outcome.exit_code, 3) << call;
-    EXPECT_NE(outcome.errors.find("one label, 255, in 2 parts"), std::string::npos)
-        << outcome.errors;
-    EXPECT_NE(outcome.errors.find("--parts"), std::string::npos);
+    EXPECT_TRUE(holds(outcome.errors, "one label, 255, in 2 parts"));
+    EXPECT_TRUE(holds(outcome.errors, "--parts"));
     EXPECT_EQ(outcome.output, "");
   }
   auto table = rows("out/labels.csv", "label");
@@ -277,19 +271,16 @@ TEST_F(Extract, CountsWhatBecameOfTheLabels) {
   volume_.fill_box(12, {0, 0, 0}, {20, 20, 4});
   write_sample();
   const Outcome outcome = run("extract sample.nrrd out");
-  EXPECT_NE(
-      outcome.output.find("6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n"),
-      std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(
+      holds(outcome.output, "6 labels: 3 written (1 in pieces), 2 at the border, 1 too small\n"));
 }
 
 TEST_F(Extract, NamesALabelThatIsTooSmallForWalls) {
   volume_.fill_ball(3, {20, 20, 30}, 8.0);
   volume_.fill_box(7, {40, 40, 40}, {41, 41, 41});
   test::write_bytes(folder_ / "sample.nrrd", test::nrrd(volume_, ""));
-  EXPECT_NE(run("extract sample.nrrd out --edge-length 0 --smallest 1")
-                .errors.find("Label 7 has only 1 voxel in its largest piece. "),
-            std::string::npos)
+  EXPECT_TRUE(holds(run("extract sample.nrrd out --edge-length 0 --smallest 1").errors,
+                    "Label 7 has only 1 voxel in its largest piece. "))
       << content("stderr.txt");
   EXPECT_EQ(run("extract sample.nrrd out --edge-length 0 --smallest 64").exit_code, 0);
 }
@@ -301,17 +292,17 @@ TEST_F(Extract, CountsLabelsInEachCommand) {
        {"extract sample.nrrd walls --edge-length 0", "clump sample.nrrd -k 2 -o clumps",
         "batch sample.nrrd -o out -n 60 --describe none"}) {
     const Outcome outcome = run(call);
-    EXPECT_NE(outcome.output.find(line), std::string::npos) << call << outcome.output;
+    EXPECT_TRUE(holds(outcome.output, line)) << call;
   }
   // A batch of meshes beside a table of the user's.
   write_mesh(test::sphere(2), path("ball.ply"));
   fs::create_directory(path("mine"));
   std::ofstream(path("mine/labels.csv")) << "number\n1\n";
   EXPECT_EQ(run("batch ball.ply -o mine -n 40 -q --describe none").exit_code, 0);
-  EXPECT_EQ(content("mine/summary.json").find("labels"), std::string::npos);
+  EXPECT_FALSE(holds(content("mine/summary.json"), "labels"));
   const std::string json = content("out/summary.json");
-  EXPECT_NE(json.find("\"at the border\": 1"), std::string::npos) << json;
-  EXPECT_NE(content("out/summary.html").find("1 at the border, 1 too small."), std::string::npos);
+  EXPECT_TRUE(holds(json, "\"at the border\": 1"));
+  EXPECT_TRUE(holds(content("out/summary.html"), "1 at the border, 1 too small."));
 }
 
 TEST_F(Extract, TakesSizesWithUnitsAndTheChosenVolumeOfAFile) {
@@ -373,7 +364,7 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   const Outcome outcome = run("batch sample.nrrd -o out -n 60");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.rfind("70 x 60 x 60 voxels of 0.5 x 0.5 x 0.5 mm", 0), 0U);
-  EXPECT_NE(outcome.output.find("\n3 grains: 3 remeshed, "), std::string::npos) << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "\n3 grains: 3 remeshed, "));
   EXPECT_EQ(read_mesh(path("out/8.ply")).points.size(), 60U);
   auto labels = rows("out/labels.csv", "grain");
   EXPECT_EQ(labels.size(), 5U);
@@ -385,8 +376,8 @@ TEST_F(Extract, GoesOnToNodesWithoutFilesInBetween) {
   EXPECT_EQ(records[1][0], "sample.nrrd/5");
   EXPECT_EQ(records[2][0], "sample.nrrd/8");
   EXPECT_EQ(records[3][0], "sample.nrrd/3");
-  EXPECT_NE(records[1].back().find("2 pieces"), std::string::npos) << records[1].back();
-  EXPECT_EQ(records[2].back().find("pieces"), std::string::npos) << records[2].back();
+  EXPECT_TRUE(holds(records[1].back(), "2 pieces"));
+  EXPECT_FALSE(holds(records[2].back(), "pieces"));
 
   // The same as through files, and as a batch that takes the volume among others.
   ASSERT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
@@ -447,7 +438,7 @@ TEST_F(Extract, RefusesWhatMakesNoSenseAndBeginsNothing) {
   fs::create_directories(folder_ / "out/8.ply");
   const Outcome outcome = run("extract sample.nrrd out -q");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.errors.find("8.ply\" is a folder"), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "8.ply\" is a folder"));
   EXPECT_FALSE(exists("out/labels.csv"));
 }
 
@@ -480,8 +471,8 @@ TEST_F(Extract, DescribesEachGrainIfAsked) {
   write_sample();
   const Outcome outcome = run("extract sample.nrrd dense --describe");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("Voxels across a grain: "), std::string::npos) << outcome.output;
-  EXPECT_EQ(outcome.output.find("fewer nodes"), std::string::npos) << "it has no nodes";
+  EXPECT_TRUE(holds(outcome.output, "Voxels across a grain: "));
+  EXPECT_FALSE(holds(outcome.output, "fewer nodes")) << "it has no nodes";
   // The scan's columns of a batch, which measures edges in another unit.
   ASSERT_EQ(run("batch sample.nrrd -o out -n 100 -q --describe scan").exit_code, 0);
   const auto shapes = rows("dense/shape.csv", "grain");
@@ -513,9 +504,8 @@ TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {
   write_sample();
   const Outcome outcome = run("batch sample.nrrd -o out -n 1000");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("Voxels across a grain: "), std::string::npos) << outcome.output;
-  EXPECT_NE(outcome.output.find("resolve fewer nodes than were asked for"), std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "Voxels across a grain: "));
+  EXPECT_TRUE(holds(outcome.output, "resolve fewer nodes than were asked for"));
   auto shapes = rows("out/shape.csv", "grain");
   ASSERT_EQ(shapes.size(), 3U);
   auto& ball = shapes["sample.nrrd/3"];
@@ -539,13 +529,13 @@ TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {
   EXPECT_NEAR(number("resolution.area.corrected [length^2]") / alone, 1.0, 1e-3);
 
   EXPECT_EQ(run("batch sample.nrrd -o none -n 100 -q --describe remesh").exit_code, 0);
-  EXPECT_EQ(content("none/shape.csv").find("resolution."), std::string::npos);
+  EXPECT_FALSE(holds(content("none/shape.csv"), "resolution."));
   EXPECT_EQ(run("batch dense -o meshes -n 100 -q").exit_code, 0);  // of voxels nobody knows
-  EXPECT_EQ(content("meshes/shape.csv").find("resolution."), std::string::npos);
+  EXPECT_FALSE(holds(content("meshes/shape.csv"), "resolution."));
   const Outcome given = run("batch dense -o given -n 100 --voxel-size 0.5");
-  EXPECT_NE(given.output.find("Voxels across a grain: "), std::string::npos) << given.output;
+  EXPECT_TRUE(holds(given.output, "Voxels across a grain: "));
   const Outcome rough = run("batch sample.nrrd -o rough -n 100 --smoothing 3");
-  EXPECT_EQ(rough.output.find("Voxels across"), std::string::npos) << "no biases of this smoothing";
+  EXPECT_FALSE(holds(rough.output, "Voxels across")) << "no biases of this smoothing";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/text.h"
@@ -15,6 +16,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 class FileNames : public test::ProgramRun {
  protected:
@@ -38,7 +40,7 @@ TEST_F(FileNames, OfAnyBytesMakeTablesAndPagesThatProgramsTake) {
   const Outcome outcome = run(call);
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_TRUE(is_clean(outcome.errors)) << outcome.errors;
-  EXPECT_NE(outcome.errors.find("zz\\xFF.ply: "), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "zz\\xFF.ply: "));
   for (const char* made : {"out/grains.csv", "out/summary.html", "out/summary.json"}) {
     EXPECT_TRUE(is_clean(content(made))) << made;
   }
@@ -83,7 +85,7 @@ TEST_F(FileNames, InSentencesHaveNoControlCharacters) {
     const Outcome outcome = run(call);
     EXPECT_TRUE(outcome.exit_code == 1 || outcome.exit_code == 2);
     EXPECT_TRUE(is_clean(outcome.errors)) << outcome.errors;
-    EXPECT_NE(outcome.errors.find("\\x"), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "\\x"));
   }
 }
 
@@ -105,15 +107,13 @@ TEST_F(FileNames, ThatAHeaderGivesHaveNoControlCharacters) {
     header(name);
     const Outcome outcome = run("extract sample.nhdr out2 -q --smallest 1");
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.errors.find("which contains control characters. Correct it."),
-              std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "which contains control characters. Correct it."));
     EXPECT_TRUE(is_clean(outcome.errors)) << outcome.errors;
   }
   test::write_bytes(folder_ / "list.txt", "body.ply\0more\n"s);
   const Outcome list = run("batch @list.txt -o out3");
   EXPECT_EQ(list.exit_code, 2);
-  EXPECT_NE(list.errors.find("contains a NUL"), std::string::npos) << list.errors;
+  EXPECT_TRUE(holds(list.errors, "contains a NUL"));
 }
 
 }  // namespace

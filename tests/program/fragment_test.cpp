@@ -7,12 +7,15 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class FragmentCommand : public test::ProgramRun {
  protected:
@@ -31,8 +34,7 @@ TEST_F(FragmentCommand, WritesFragmentsAndTheirTables) {
   const Outcome outcome = run("fragment grain.ply -k 6 -o deep/out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.output.rfind("Fragments: 6, volumes ", 0), 0U) << outcome.output;
-  EXPECT_NE(outcome.output.find("\nFiles       \"deep/out\"\nTime        "), std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "\nFiles       \"deep/out\"\nTime        "));
   const auto rows = test::csv_records(content("deep/out/fragments.csv"));
   ASSERT_EQ(rows.size(), 7U);
   double sum = 0.0;
@@ -59,12 +61,12 @@ TEST_F(FragmentCommand, WritesTheFormatsOfEngines) {
   EXPECT_TRUE(exists("out/fragment_3.urdf"));
   EXPECT_TRUE(exists("out/fragment_3_1.obj"));
   EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format xml").exit_code, 0);
-  EXPECT_NE(content("out/fragment_2.xml").find("freejoint"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/fragment_2.xml"), "freejoint"));
   const Outcome rounded = run("fragment grain.ply -k 3 -o out --format shp -n 80");
   EXPECT_EQ(rounded.exit_code, 0);
-  EXPECT_NE(rounded.output.find("Rounded for Rockable by "), std::string::npos) << rounded.output;
+  EXPECT_TRUE(holds(rounded.output, "Rounded for Rockable by "));
   const std::string shape = content("out/fragment_1.shp");
-  EXPECT_NE(shape.find("name fragment_1\n"), std::string::npos);
+  EXPECT_TRUE(holds(shape, "name fragment_1\n"));
   const std::size_t nodes = std::stoul(shape.substr(shape.find("nv ") + 3));
   EXPECT_NEAR(static_cast<double>(nodes), 80.0, 20.0) << "about the nodes";
 }
@@ -78,8 +80,8 @@ TEST_F(FragmentCommand, LeavesNoFragmentOfAnEarlierCall) {
   EXPECT_TRUE(exists("out/fragment_3.ply"));
   EXPECT_TRUE(exists("out/fragment_3.off"));
   std::ofstream(path("out/contacts.csv")) << "mine\n";
-  EXPECT_NE(run("fragment grain.ply -k 2 -o out").errors.find("a contacts.csv of another command"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(run("fragment grain.ply -k 2 -o out").errors, "a contacts.csv of another command"));
   EXPECT_EQ(content("out/contacts.csv"), "mine\n");
   EXPECT_TRUE(exists("out/fragment_3.ply"));
 }
@@ -94,8 +96,7 @@ TEST_F(FragmentCommand, ReplacesNoFragmentsOfAnotherGrain) {
   const std::string mesh = content("out/fragment_1.ply");
   const Outcome outcome = run("fragment other.ply -k 2 -o out");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.errors.find("\"out\" has the fragments of another grain"), std::string::npos)
-      << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "\"out\" has the fragments of another grain"));
   for (const std::string name : {"out/fragments.csv", "out/contacts.csv"}) {
     EXPECT_EQ(run("clump grain.ply -k 2 -q -o " + name).exit_code, 2) << name;
   }
@@ -109,7 +110,7 @@ TEST_F(FragmentCommand, ReplacesNoFragmentsOfAnotherGrain) {
 TEST_F(FragmentCommand, RemeshesWithCommonWalls) {
   const Outcome outcome = run("fragment grain.ply -k 4 -o out -n 100");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("4 fragments with "), std::string::npos) << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "4 fragments with "));
   const auto rows = test::csv_records(content("out/fragments.csv"));
   double sum = 0.0;
   for (std::size_t k = 1; k < rows.size(); ++k) {

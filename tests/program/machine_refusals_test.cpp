@@ -13,6 +13,7 @@
 #include "limited_run.h"
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -22,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Call = std::vector<std::string>;
+using test::holds;
 
 class MachineRefusals : public test::LimitedRun {
  protected:
@@ -67,7 +69,7 @@ class MachineRefusals : public test::LimitedRun {
                                    const std::string& whole) const {
     EXPECT_EQ(stopped.exit_code, 1) << stopped.errors;
     EXPECT_EQ(stopped.errors.rfind("Stopped after ", 0), 0U) << stopped.errors;
-    EXPECT_NE(stopped.errors.find("The same call "), std::string::npos) << stopped.errors;
+    EXPECT_TRUE(holds(stopped.errors, "The same call "));
     EXPECT_EQ(failed_rows("out/grains.csv"), 0U);
     EXPECT_EQ(parts(), Call());
     const Outcome again = run(call);
@@ -119,9 +121,7 @@ TEST_F(MachineRefusals, AFileOfABatchThatCannotBeReadChangesNothing) {
   fs::create_symlink("/proc/self/mem", folder_ / "out/call.json");
   const Outcome stopped = run("batch scans -o out -q -n 60");
   EXPECT_EQ(stopped.exit_code, 1);
-  EXPECT_NE(stopped.errors.find("call.json\" could not be read to its end. Check the disk."),
-            std::string::npos)
-      << stopped.errors;
+  EXPECT_TRUE(holds(stopped.errors, "call.json\" could not be read to its end. Check the disk."));
   EXPECT_EQ(content("out/grains.csv"), rows);
 }
 
@@ -136,7 +136,7 @@ TEST_F(MachineRefusals, AFullDiskStopsABatchWhichThenGoesOn) {
   const Outcome stopped = run_limited({"batch", "scans", "-o", "out", "-q", "--describe", "none",
                                        "-n", "1500", "--format", "off", "-t", "2"},
                                       {{RLIMIT_FSIZE, most}});
-  EXPECT_NE(stopped.errors.find("ulimit -f"), std::string::npos) << stopped.errors;
+  EXPECT_TRUE(holds(stopped.errors, "ulimit -f"));
   expect_stopped_and_going_on(stopped, call, "whole");
 }
 
@@ -167,7 +167,7 @@ TEST_F(MachineRefusals, ADiskThatFillsWithinABatchDoesNotFailItsGrains) {
   const Outcome full = run(call + " -t 1");
   EXPECT_EQ(full.exit_code, 1) << full.errors;
   EXPECT_EQ(failed_rows("disk/out/grains.csv"), 0U);
-  EXPECT_NE(full.errors.find("space on the disk"), std::string::npos) << full.errors;
+  EXPECT_TRUE(holds(full.errors, "space on the disk"));
   EXPECT_EQ(full.errors.rfind("Stopped after 1 of 4 grains. ", 0), 0U) << full.errors;
   EXPECT_EQ(mount("none", path("disk").c_str(), "tmpfs", MS_REMOUNT, "size=4m"), 0);
   const Outcome again = run(call);
@@ -194,8 +194,7 @@ TEST_F(MachineRefusals, AnOutputFolderThatIsGoneForAMomentStopsABatch) {
     pipe << third;
   }
   const Outcome stopped = outcome_of(child);
-  EXPECT_NE(stopped.errors.find("Check that the folder exists"), std::string::npos)
-      << stopped.errors;
+  EXPECT_TRUE(holds(stopped.errors, "Check that the folder exists"));
   fs::rename(folder_ / "away", folder_ / "out");
   fs::remove(folder_ / scan(2));
   std::ofstream(folder_ / scan(2), std::ios::binary) << third;
@@ -220,8 +219,7 @@ TEST_F(MachineRefusals, AnInputFolderThatIsGoneForAMomentStopsABatch) {
     pipe << first;
   }
   const Outcome stopped = outcome_of(child);
-  EXPECT_NE(stopped.errors.find("the folder \"scans\" is not there"), std::string::npos)
-      << stopped.errors;
+  EXPECT_TRUE(holds(stopped.errors, "the folder \"scans\" is not there"));
   fs::rename(folder_ / "away", folder_ / "scans");
   fs::remove(folder_ / scan(0));
   fs::rename(folder_ / "kept.ply", folder_ / scan(0));
@@ -250,7 +248,7 @@ TEST_F(MachineRefusals, MemoryIsNeverAGrainsFailure) {
         << outcome.exit_code << outcome.errors;
     if (outcome.exit_code == 0) expect_same("out", "whole");
     if (outcome.exit_code == 1) {
-      EXPECT_NE(outcome.errors.find("not enough memory"), std::string::npos) << outcome.errors;
+      EXPECT_TRUE(holds(outcome.errors, "not enough memory"));
       has_stopped = true;
       EXPECT_EQ(run("batch scans -o out -q --describe none -n 60").exit_code, 0);
       expect_same("out", "whole");
@@ -304,8 +302,7 @@ TEST_F(MachineRefusals, FilesBeyondTheLimitOfTheirSizeAreASentence) {
     SCOPED_TRACE(call.front());
     const Outcome outcome = run_limited(call, {{RLIMIT_FSIZE, 300}});
     EXPECT_EQ(outcome.exit_code, 1) << "a signal ends the program: " << outcome.errors;
-    EXPECT_NE(outcome.errors.find("could not be written completely"), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "could not be written completely"));
     EXPECT_FALSE(exists("made.ply") || exists("made.csv"));
     EXPECT_EQ(content("made.json"), "what was there");
     EXPECT_EQ(parts(), Call());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "program_run.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -21,6 +22,7 @@ namespace wscvt {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using test::holds;
 
 /// An option of a remesh: a value other than the default, and one that is refused with words in the
 /// sentence. What else the value needs to be accepted stands in `with`.
@@ -136,7 +138,7 @@ TEST_F(ProgramOptions, OfTheOtherMethodAreRefusedWithItsName) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run("scan.ply remesh.ply " + arguments);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find(words), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, words));
     EXPECT_FALSE(exists("remesh.ply"));
   }
 }
@@ -147,7 +149,7 @@ TEST_F(ProgramOptions, RefuseWhatIsNotTheirsWithTheChoicesAndBeginNothing) {
     const Outcome outcome =
         run("scan.ply remesh.ply " + one.with + " --" + one.key + "=" + one.refused);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find(one.words), std::string::npos) << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, one.words));
     EXPECT_EQ(outcome.output, "");
     EXPECT_FALSE(exists("remesh.ply"));
   }
@@ -163,29 +165,25 @@ TEST_F(ProgramOptions, WithoutAnEffectAreTold) {
     const std::string name = std::string(option).substr(0, std::string(option).find('='));
     const Outcome idle = run(call + option);
     EXPECT_EQ(idle.exit_code, 0);
-    EXPECT_NE(idle.errors.find("Warning: " + name + " has no effect without " + needed + "."),
-              std::string::npos)
-        << idle.errors;
+    EXPECT_TRUE(holds(idle.errors, "Warning: " + name + " has no effect without " + needed + "."));
     const Outcome works = run(call + option + " " + used);
     EXPECT_EQ(works.exit_code, 0);
-    EXPECT_EQ(works.errors.find("no effect"), std::string::npos) << works.errors;
+    EXPECT_FALSE(holds(works.errors, "no effect"));
   }
   for (const auto& [option, needed] :
        {std::pair("--sdf-spacing", "0.2"), {"--edge-length", "0.2"}}) {
     const Outcome outcome = run(call + option + " " + needed);
     EXPECT_EQ(outcome.exit_code, 2);
     const std::string file = std::string(option) == "--edge-length" ? "--tetrahedra" : "--sdf";
-    EXPECT_NE(outcome.errors.find(std::string(option) + " requires " + file), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, std::string(option) + " requires " + file));
   }
 }
 
 TEST_F(ProgramOptions, WithAnAllowedErrorTheNumberOfNodesIsTheLimit) {
   const Outcome missed = run("scan.ply missed.ply -d 6 --max-error 0.001 -n 80");
   EXPECT_EQ(missed.exit_code, 0);
-  EXPECT_NE(missed.errors.find("No number of nodes up to 80 has"), std::string::npos)
-      << missed.errors;
-  EXPECT_NE(missed.errors.find("a larger --nodes, or a larger --max-error"), std::string::npos);
+  EXPECT_TRUE(holds(missed.errors, "No number of nodes up to 80 has"));
+  EXPECT_TRUE(holds(missed.errors, "a larger --nodes, or a larger --max-error"));
   EXPECT_EQ(read_mesh(path("missed.ply")).points.size(), 80U);
   ASSERT_EQ(run("scan.ply met.ply -q -d 6 -n 1500 --max-error 5").exit_code, 0);
   EXPECT_LT(read_mesh(path("met.ply")).points.size(), 200U);
@@ -206,8 +204,7 @@ TEST_F(ProgramOptions, WithAnAllowedErrorTheNumberOfNodesIsTheLimit) {
   const std::string help = run("remesh --help").output;
   const std::string words = "at most this number, or " +
                             std::to_string(ErrorTarget().largest_node_count) + " if none is given";
-  EXPECT_NE(std::regex_replace(help, std::regex("\\s+"), " ").find(words), std::string::npos)
-      << help;
+  EXPECT_TRUE(holds(std::regex_replace(help, std::regex("\\s+"), " "), words)) << help;
 }
 
 TEST_F(ProgramOptions, TakeBackWhatAReportPrints) {
@@ -234,11 +231,10 @@ TEST_F(ProgramOptions, TakeBackWhatAReportPrints) {
 
 TEST_F(ProgramOptions, HelpHasNoNumbersOfEnumerators) {
   const std::string help = run("remesh --help-all").output;
-  EXPECT_EQ(help.find("->"), std::string::npos);
+  EXPECT_FALSE(holds(help, "->"));
   const auto names_all = [&](const auto& rows) {
     for (const auto& row : rows) {
-      EXPECT_NE(help.find("\n                              " + std::string(row.key) + ": "),
-                std::string::npos)
+      EXPECT_TRUE(holds(help, "\n                              " + std::string(row.key) + ": "))
           << row.key;
     }
   };
@@ -265,7 +261,7 @@ TEST_F(ProgramOptions, LettersStandForNames) {
 TEST_F(ProgramOptions, QuietThreadsAndCoefficientsDoAsTheySay) {
   const Outcome loud = run("scan.ply loud.ply -n 60 -d 6 -t 1");
   EXPECT_EQ(loud.exit_code, 0) << loud.errors;
-  EXPECT_NE(loud.output.find("60 nodes"), std::string::npos);
+  EXPECT_TRUE(holds(loud.output, "60 nodes"));
   const Outcome quiet =
       run("scan.ply quiet.ply -n 60 -d 6 --quiet --threads=2 --coefficients=c.json");
   EXPECT_EQ(quiet.exit_code, 0) << quiet.errors;
@@ -307,11 +303,11 @@ TEST_F(ProgramOptions, TetrahedraAreWrittenInEachFormAndLeaveTheRemeshAsItIs) {
       run("remesh scan.ply filled.ply -n 60 -d 6 --tetrahedra body.vtu --tetrahedra body.msh "
           "--tetrahedra body.inp --edge-length 0.5");
   ASSERT_EQ(filled.exit_code, 0) << filled.errors;
-  EXPECT_NE(filled.output.find("etrahedra"), std::string::npos) << filled.output;
+  EXPECT_TRUE(holds(filled.output, "etrahedra"));
   EXPECT_EQ(content("filled.ply"), content("plain.ply"));
-  EXPECT_NE(content("body.inp").find("C3D4"), std::string::npos);
-  EXPECT_NE(content("body.vtu").find("UnstructuredGrid"), std::string::npos);
-  EXPECT_NE(content("body.msh").find("$Elements"), std::string::npos);
+  EXPECT_TRUE(holds(content("body.inp"), "C3D4"));
+  EXPECT_TRUE(holds(content("body.vtu"), "UnstructuredGrid"));
+  EXPECT_TRUE(holds(content("body.msh"), "$Elements"));
   EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra body.stl").exit_code, 2);
   EXPECT_EQ(run("remesh scan.ply bad.ply -n 60 --tetrahedra b.vtu --edge-length -1").exit_code, 2);
   EXPECT_FALSE(exists("bad.ply"));
@@ -325,8 +321,7 @@ TEST_F(ProgramOptions, AGridThatIsTooLargeIsRefusedBeforeTheRemesh) {
             "--sdf-spacing 0.001" +
             frame);
     EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_NE(outcome.errors.find("(--sdf-spacing) of 0.001 needs a grid of "), std::string::npos)
-        << outcome.errors;
+    EXPECT_TRUE(holds(outcome.errors, "(--sdf-spacing) of 0.001 needs a grid of "));
     EXPECT_FALSE(exists("bad.ply") || exists("grid.npy"));
   }
   // What is wrong with the scan comes first.

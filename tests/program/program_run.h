@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
+
 namespace wscvt::test {
 
 /// The built program as a user calls it, in a folder of the test's own, which is gone at its end.
@@ -54,8 +56,7 @@ class ProgramRun : public testing::Test {
       SCOPED_TRACE(call.arguments);
       const Outcome outcome = run(command + " " + call.arguments);
       EXPECT_EQ(outcome.exit_code, call.exit_code);
-      EXPECT_NE(outcome.errors.find(call.part_of_the_sentence), std::string::npos)
-          << outcome.errors;
+      EXPECT_TRUE(holds(outcome.errors, call.part_of_the_sentence));
       EXPECT_EQ(outcome.output, "");
       for (const std::string& file : files) EXPECT_FALSE(exists(file)) << file;
     }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "program_run.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Document = nlohmann::ordered_json;
+using test::holds;
 
 class Sample : public test::ProgramRun {
  protected:
@@ -38,8 +40,8 @@ TEST_F(Sample, IsOfABatchsFolderOrATable) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   EXPECT_EQ(outcome.output.rfind("out: 3 grains\n", 0), 0U) << outcome.output;
-  EXPECT_NE(outcome.output.find("N for 20 %"), std::string::npos);
-  EXPECT_NE(outcome.output.find("contact_error_mean"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.output, "N for 20 %"));
+  EXPECT_TRUE(holds(outcome.output, "contact_error_mean"));
   const Document all = Document::parse(content("all.json"));
   // The second largest axis of the ellipsoids: 1.8, 1.6, 1.4.
   const Document& size = all.at("samples").at(0).at("size").at("by_number");
@@ -49,16 +51,16 @@ TEST_F(Sample, IsOfABatchsFolderOrATable) {
   const Document& contact =
       all.at("levels").at("descriptors").at("contact_error_scatter").at("errors");
   EXPECT_GT(contact.at(0).at("median_percent"), contact.at(1).at("median_percent"));
-  EXPECT_NE(content("page.html").find("\"0\":\"data:image/png"), std::string::npos);
+  EXPECT_TRUE(holds(content("page.html"), "\"0\":\"data:image/png"));
   EXPECT_EQ(run("sample out -q --report all.csv").exit_code, 0);
-  EXPECT_NE(content("all.csv").find("\r\nout,contact_error_mean,%,number,error_percent_90_n40,"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(content("all.csv"), "\r\nout,contact_error_mean,%,number,error_percent_90_n40,"));
   // A level is a sample of its own.
   EXPECT_EQ(run("sample out/n30 -q --report one.csv --describe remesh").exit_code, 0);
   EXPECT_EQ(run("sample out/n30/shape.csv -q --report two.csv --describe remesh -t 1").exit_code,
             0);
   EXPECT_EQ(content("one.csv"), content("two.csv"));
-  EXPECT_NE(content("one.csv").find("n30,volume,length^3,mass,mean,"), std::string::npos);
+  EXPECT_TRUE(holds(content("one.csv"), "n30,volume,length^3,mass,mean,"));
 }
 
 TEST_F(Sample, TwoAreCompared) {
@@ -128,8 +130,7 @@ TEST_F(Sample, NamesASizeThatAnotherProgramsTableHas) {
   expect_refused("sample", {{"morpho.csv", 1, "--diameter equivalent-diameter"}}, {});
   const Outcome outcome = run("sample morpho.csv --diameter equivalent-diameter");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("Sizes are from the column \"volume\""), std::string::npos)
-      << outcome.output << outcome.errors;
+  EXPECT_TRUE(holds(outcome.output, "Sizes are from the column \"volume\"")) << outcome.errors;
 }
 
 }  // namespace

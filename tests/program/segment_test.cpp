@@ -6,11 +6,14 @@
 
 #include "limited_run.h"
 #include "program_run.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/page_tables.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class Segment : public test::LimitedRun {
  protected:
@@ -45,13 +48,12 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
                                  0),
             0U)
       << outcome.output;
-  EXPECT_NE(outcome.output.find("Look at \"labels.html\" first. Then: wscvt batch labels.nrrd -o "
-                                "out -n 500\n"),
-            std::string::npos)
-      << outcome.output;
+  EXPECT_TRUE(holds(outcome.output,
+                    "Look at \"labels.html\" first. Then: wscvt batch labels.nrrd -o "
+                    "out -n 500\n"));
   const std::string page = content("labels.html");
   EXPECT_EQ(test::count_of(page, "data:image/png"), 3U);
-  EXPECT_NE(page.find("Made from scan.nrrd by wscvt"), std::string::npos);
+  EXPECT_TRUE(holds(page, "Made from scan.nrrd by wscvt"));
   EXPECT_EQ(content("labels.nrrd").rfind("NRRD0004", 0), 0U);
 
   EXPECT_EQ(run("batch labels.nrrd -o out -n 60 -q").exit_code, 0);
@@ -65,16 +67,15 @@ TEST_F(Segment, MakesLabelsAndAPageThatBatchGoesOnFrom) {
   EXPECT_EQ(run("segment scan.nrrd labels.mha --threshold 500 -q").exit_code, 1);
   EXPECT_FALSE(exists("labels.mha"));
   const std::string all = run("segment mask.nrrd labels.mha --separate 0 --smallest 3000").output;
-  EXPECT_NE(all.find("\n1 grain"), std::string::npos) << all;
+  EXPECT_TRUE(holds(all, "\n1 grain"));
 }
 
 TEST_F(Segment, ReplacesNoPageOfItsUser) {
   test::write_bytes(folder_ / "labels.html", "<html><title>My notes</title></html>");
   const Outcome refused = run("segment scan.nrrd labels.nrrd -q");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.errors.find("\"labels.html\" would be replaced"), std::string::npos)
-      << refused.errors;
-  EXPECT_NE(content("labels.html").find("My notes"), std::string::npos);
+  EXPECT_TRUE(holds(refused.errors, "\"labels.html\" would be replaced"));
+  EXPECT_TRUE(holds(content("labels.html"), "My notes"));
   EXPECT_FALSE(exists("labels.nrrd"));
   // As it advises. Its own page is replaced.
   for (int time = 0; time < 2; ++time) {
@@ -86,12 +87,11 @@ TEST_F(Segment, ReplacesNoPageOfItsUser) {
 TEST_F(Segment, SeparatesMasksOnTheWayToMeshes) {
   const Outcome whole = run("extract mask.nrrd whole");
   EXPECT_EQ(whole.exit_code, 3);
-  EXPECT_NE(whole.errors.find("--separate 0.85 also separates"), std::string::npos) << whole.errors;
-  EXPECT_NE(run("extract mask.nrrd parts --parts").output.find("2 labels: 2 written\n"),
-            std::string::npos);
+  EXPECT_TRUE(holds(whole.errors, "--separate 0.85 also separates"));
+  EXPECT_TRUE(holds(run("extract mask.nrrd parts --parts").output, "2 labels: 2 written\n"));
   const Outcome apart = run("extract mask.nrrd apart --separate 0.85");
   EXPECT_EQ(apart.exit_code, 0) << apart.errors;
-  EXPECT_NE(apart.output.find("3 labels: 3 written\n"), std::string::npos) << apart.output;
+  EXPECT_TRUE(holds(apart.output, "3 labels: 3 written\n"));
   EXPECT_EQ(run("batch mask.nrrd -o out -n 60 -q --separate 0.85").exit_code, 0);
   EXPECT_TRUE(exists("out/3.ply"));
   // What it was called with belongs to the batch.
@@ -125,11 +125,11 @@ TEST_F(Segment, SaysWhatTheMachineRefuses) {
   const Outcome outcome = run_limited({"segment", "large.json", "labels.nrrd", "-q"},
                                       {{RLIMIT_AS, rlim_t{700} << 20U}});
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.errors.find("about 5.4 GB"), std::string::npos) << outcome.errors;
+  EXPECT_TRUE(holds(outcome.errors, "about 5.4 GB"));
   const Outcome full =
       run_limited({"segment", "scan.nrrd", "labels.nrrd", "-q"}, {{RLIMIT_FSIZE, 200}});
   EXPECT_EQ(full.exit_code, 1);
-  EXPECT_NE(full.errors.find("labels.nrrd"), std::string::npos) << full.errors;
+  EXPECT_TRUE(holds(full.errors, "labels.nrrd"));
   EXPECT_FALSE(exists("labels.nrrd"));
 }
 
@@ -150,23 +150,22 @@ class FabricCommand : public test::ProgramRun {
 TEST_F(FabricCommand, WritesTablesDiscsAndAPage) {
   const Outcome outcome = run("describe labels.nrrd -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  EXPECT_NE(outcome.output.find("2 grains, 0 of them at the border\n1 pair of labels touches: 1 in "
-                                "contact, 0 with"),
-            std::string::npos)
-      << outcome.output;
-  EXPECT_NE(outcome.output.find("taken as exact"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.output,
+                    "2 grains, 0 of them at the border\n1 pair of labels touches: 1 in "
+                    "contact, 0 with"));
+  EXPECT_TRUE(holds(outcome.output, "taken as exact"));
   EXPECT_EQ(test::count_of(content("out/contacts.csv"), "\r\n"), 2U);
   EXPECT_EQ(test::count_of(content("out/grains.csv"), "\r\n"), 3U);
-  EXPECT_NE(content("out/contacts.vtp").find("PolyData"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/contacts.vtp"), "PolyData"));
   EXPECT_EQ(test::count_of(content("out/fabric.html"), "<svg"), 6U);
-  EXPECT_NE(content("out/fabric.html").find("Made from labels.nrrd by wscvt"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/fabric.html"), "Made from labels.nrrd by wscvt"));
 
   const Outcome blurred = run("describe labels.nrrd scan.nrrd -o blurred");
   EXPECT_EQ(blurred.exit_code, 0) << blurred.errors;
-  EXPECT_NE(blurred.output.find("Blur of the scan"), std::string::npos);
+  EXPECT_TRUE(holds(blurred.output, "Blur of the scan"));
   EXPECT_NE(content("blurred/contacts.csv"), content("out/contacts.csv"));
   EXPECT_EQ(run("describe labels.nrrd -o out --voxel-size 12um -q").output, "");
-  EXPECT_NE(content("out/contacts.csv").find(",um\r\n"), std::string::npos);
+  EXPECT_TRUE(holds(content("out/contacts.csv"), ",um\r\n"));
 }
 
 TEST_F(FabricCommand, RefusesWrongCallsBeforeAnythingIsMade) {

@@ -7,6 +7,7 @@
 
 #include "program_run.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -15,6 +16,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 class Bodies : public test::ProgramRun {
  protected:
@@ -68,7 +70,7 @@ TEST_F(Bodies, SplitsWhatRemeshRefuses) {
     const std::string name = "two." + ending;
     write_mesh(two, path(name));
     const Outcome refused = run("remesh " + name + " out.ply");
-    EXPECT_NE(refused.errors.find("wscvt extract MESH OUT"), std::string::npos) << ending;
+    EXPECT_TRUE(holds(refused.errors, "wscvt extract MESH OUT")) << ending;
     const Outcome outcome = run("extract " + name + " " + ending);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     EXPECT_EQ(outcome.output.rfind("2 bodies: 2 written\n", 0), 0U) << outcome.output;
@@ -97,7 +99,7 @@ TEST_F(Bodies, NamesBodiesAndOnlyListsOpenOnes) {
       << outcome.output << outcome.errors;
   // Most of the faces are not written.
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.errors.find("of the faces. They are only listed"), std::string::npos);
+  EXPECT_TRUE(holds(outcome.errors, "of the faces. They are only listed"));
   const auto rows = test::csv_records(content("out/bodies.csv"));
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[0].back(), "name");
@@ -113,7 +115,7 @@ TEST_F(Bodies, NamesBodiesAndOnlyListsOpenOnes) {
              path("touching.stl"));
   const Outcome whole = run("remesh touching.stl whole.ply -n 60");
   EXPECT_EQ(whole.exit_code, 1);
-  EXPECT_NE(whole.errors.find("2 bodies with common walls"), std::string::npos) << whole.errors;
+  EXPECT_TRUE(holds(whole.errors, "2 bodies with common walls"));
   EXPECT_EQ(run("batch touching.stl -o apart -n 60 --parts").exit_code, 0);
   EXPECT_NEAR(volume(path("apart/1.ply")), 8.0, 1e-9);
   EXPECT_NEAR(volume(path("apart/2.ply")), 8.0, 1e-9);
@@ -141,7 +143,7 @@ TEST_F(Bodies, IsDoneByABatchToo) {
   write_mesh(test::sphere(3), path("alone.ply"));
   const Outcome outcome = run("batch sample.stl alone.ply no.ply -o out -n 60 --parts");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.errors;
-  EXPECT_NE(outcome.output.find("sample.stl: 3 bodies\n"), std::string::npos) << outcome.output;
+  EXPECT_TRUE(holds(outcome.output, "sample.stl: 3 bodies\n"));
   const auto rows = test::csv_records(content("out/grains.csv"));
   ASSERT_EQ(rows.size(), 6U);
   const std::vector<std::string> names = {"sample.stl/1", "sample.stl/2", "sample.stl/3",
@@ -155,7 +157,7 @@ TEST_F(Bodies, IsDoneByABatchToo) {
   // Without it the bodies are one input, which is refused with what to call.
   const Outcome whole = run("remesh sample.stl whole.ply -n 60");
   EXPECT_EQ(whole.exit_code, 1);
-  EXPECT_NE(whole.errors.find("wscvt extract MESH OUT"), std::string::npos) << whole.errors;
+  EXPECT_TRUE(holds(whole.errors, "wscvt extract MESH OUT"));
 }
 
 // Endings that scans, tables and volumes share are told apart by what they hold, or by being named.
@@ -176,7 +178,7 @@ TEST_F(Bodies, ABatchTellsMeshesFromTablesAndVolumesInAFolder) {
   points.close();
   const Outcome plain = run("remesh points.csv remesh.msh -n 40");
   EXPECT_EQ(plain.exit_code, 1);
-  EXPECT_NE(plain.errors.find("--points"), std::string::npos) << plain.errors;
+  EXPECT_TRUE(holds(plain.errors, "--points"));
   EXPECT_EQ(run("remesh points.csv remesh.msh -n 40 --points").exit_code, 0);
   EXPECT_EQ(content("remesh.msh").rfind("$MeshFormat\n4.1 0 8\n", 0), 0U);
 }
@@ -244,7 +246,7 @@ TEST_F(Bodies, RefusesWhatMakesNoSense) {
        {"extract in/1.stl in --format stl", "batch in/1.stl -o in --format stl -n 60 --parts"}) {
     const Outcome refused = run(call);
     EXPECT_EQ(refused.exit_code, 2) << call;
-    EXPECT_NE(refused.errors.find("would replace the scan"), std::string::npos) << refused.errors;
+    EXPECT_TRUE(holds(refused.errors, "would replace the scan"));
     EXPECT_FALSE(exists("in/3.stl"));
   }
 }

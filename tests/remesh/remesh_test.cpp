@@ -18,6 +18,7 @@
 #include "support/distance_bodies.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -35,6 +36,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 const IndexedMesh& sand() {
   static const IndexedMesh mesh = read_mesh(std::string(WSCVT_MESHES_DIR) + "/sand_5658.ply");
@@ -348,9 +351,8 @@ TEST(Remesh, ACoarseScanIsFittedLikeTheSameSurfaceWithSplitFaces) {
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-12) << k;
 }
 
-bool warns_of(const RemeshResult& result, const std::string& part) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-                     [&](const std::string& w) { return w.find(part) != std::string::npos; });
+testing::AssertionResult warns_of(const RemeshResult& result, const std::string& part) {
+  return test::any_holds(result.warnings, part);
 }
 
 TEST(Remesh, SaysThatAFlatBodyIsBeyondTheSeries) {
@@ -396,8 +398,7 @@ void expect_refused(const IndexedMesh& scan, const RemeshOptions& options, Error
     ADD_FAILURE() << "accepted; expected: " << part_of_the_sentence;
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), code);
-    EXPECT_NE(std::string(error.what()).find(part_of_the_sentence), std::string::npos)
-        << error.what();
+    EXPECT_TRUE(holds(error.what(), part_of_the_sentence));
   }
 }
 
@@ -595,7 +596,7 @@ TEST(Remesh, ANumberOfNodesThatDoesNotReachALongBodyIsRefusedWithOneThatDoes) {
   } catch (const Error& error) {
     sentence = error.what();
   }
-  ASSERT_NE(sentence.find("needs more than 12 nodes: "), std::string::npos) << sentence;
+  ASSERT_TRUE(holds(sentence, "needs more than 12 nodes: "));
   const std::size_t at = sentence.find(". ", sentence.find("nodes: ")) + 2;
   options.node_count = std::stoi(sentence.substr(at));
   EXPECT_GT(options.node_count, 12) << sentence;
@@ -622,7 +623,7 @@ TEST(Remesh, ManyNodesThatLeaveOutMostOfASheetAreRefused) {
       const RemeshResult result = remesh(sheet, options, Execution(1));
       EXPECT_LE(rms_distance(sheet, result.mesh, 1000, Execution(1)), 0.55 * radius) << nodes;
     } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what()).find("does not reach all of it"), std::string::npos);
+      EXPECT_TRUE(holds(error.what(), "does not reach all of it"));
       ++refused;
     }
   }
@@ -668,8 +669,7 @@ TEST(Remesh, TooFewNodesOfAMeshWithASpikeNameItsVertex) {
   const std::string sentence =
       test::refusal(ErrorCode::InvalidInput, [&] { remesh(spiky, options, Execution(1)); });
   EXPECT_EQ(sentence.find("Vertex 300, counted from 0, lies at ("), 0U) << sentence;
-  EXPECT_NE(sentence.find("So long a spike needs more than 20 nodes"), std::string::npos)
-      << sentence;
+  EXPECT_TRUE(holds(sentence, "So long a spike needs more than 20 nodes"));
 }
 
 TEST(Remesh, TellsOfTrianglesOfTheScanThatIntersectAtAnyNumberOfNodes) {
@@ -740,12 +740,6 @@ TEST(Remesh, SamplingsOfFigure1AreTriangulatedTheSameWay) {
   EXPECT_EQ(nodes_of(Sampling::Icosahedron, 642, 0), 642U);
 }
 
-bool has_warning(const RemeshResult& result, const std::string& part) {
-  return std::any_of(
-      result.warnings.begin(), result.warnings.end(),
-      [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
-}
-
 TEST(Remesh, PointsAreFittedWhenChosen) {
   IndexedMesh points;
   points.points = sand().points;
@@ -755,23 +749,22 @@ TEST(Remesh, PointsAreFittedWhenChosen) {
     FAIL() << "points were taken for a scan";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    EXPECT_NE(std::string(error.what()).find("--points"), std::string::npos);
+    EXPECT_TRUE(holds(error.what(), "--points"));
   }
   chosen.points = true;  // the advice
   const RemeshResult cloud = remesh(points, chosen, Execution(1));
-  EXPECT_TRUE(has_warning(cloud, "read as points"));
+  EXPECT_TRUE(warns_of(cloud, "read as points"));
   // Faces are not used, and it is said.
   const RemeshResult of_scan = remesh(sand(), chosen, Execution(1));
   EXPECT_EQ(of_scan.mesh.points, cloud.mesh.points);
-  EXPECT_TRUE(
-      has_warning(of_scan, std::to_string(sand().triangles.size()) + " faces were not used"));
+  EXPECT_TRUE(warns_of(of_scan, std::to_string(sand().triangles.size()) + " faces were not used"));
   const RemeshResult scan = remesh(sand(), options_of(500, Weighting::Area), Execution(1));
   expect_promises(cloud, 500);
   EXPECT_EQ(cloud.input.input_vertices, points.points.size());
   EXPECT_EQ(cloud.input.input_faces, 0U);
   EXPECT_NEAR(cloud.remesh.volume / scan.remesh.volume, 1.0, 2e-3);
   EXPECT_NEAR(cloud.remesh.area / scan.remesh.area, 1.0, 5e-3);
-  EXPECT_FALSE(has_warning(scan, "points"));
+  EXPECT_FALSE(warns_of(scan, "points"));
 }
 
 /// Follows the advice of a refusal: the shrink-wrap that it names can be remeshed.
@@ -804,16 +797,16 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   RemeshOptions options = options_of(300, Weighting::Area);
   options.points = true;
   const RemeshResult spiky = remesh(cloud, options, Execution(1));
-  EXPECT_TRUE(has_warning(spiky, "Make a surface of them first")) << spiky.steep_area_fraction;
+  EXPECT_TRUE(warns_of(spiky, "Make a surface of them first")) << spiky.steep_area_fraction;
   options.shrink_wrap.opening_percent = 10.0;
   const RemeshResult wrapped = remesh(cloud, options, Execution(1));
   expect_promises(wrapped, 300);
-  EXPECT_FALSE(has_warning(wrapped, "Make a surface of them first"));
-  EXPECT_TRUE(has_warning(wrapped, "replaced by its shrink-wrap."));
+  EXPECT_FALSE(warns_of(wrapped, "Make a surface of them first"));
+  EXPECT_TRUE(warns_of(wrapped, "replaced by its shrink-wrap."));
   cloud.triangles = {{0, 1, 2}};
   const RemeshResult with_faces = remesh(cloud, options, Execution(1));
   EXPECT_EQ(with_faces.mesh.points, wrapped.mesh.points);
-  EXPECT_TRUE(has_warning(with_faces, "faces were not used"));
+  EXPECT_TRUE(warns_of(with_faces, "faces were not used"));
   EXPECT_EQ(wrapped.input.input_vertices, cloud.points.size());
   // Faces as wide as the opening, .35, cut off up to .35^2 / 6 of the radius.
   EXPECT_NEAR(wrapped.input.volume / (4.0 * test::pi / 3.0), 1.0, 0.06);
@@ -832,7 +825,7 @@ TEST(Remesh, PointsBehindOthersAreToldAndTakenByAShrinkWrap) {
   }
   const std::string sentence =
       test::refusal(ErrorCode::NumericalFailure, [&] { remesh(cloud, options, Execution(1)); });
-  EXPECT_NE(sentence.find("Make a surface of them first"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "Make a surface of them first"));
   expect_that_the_advice_works(cloud, options, sentence);
 }
 
@@ -880,7 +873,7 @@ TEST(Remesh, RefusesScansBeyondTheRangeOfNumbers) {
         ADD_FAILURE() << size;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-        EXPECT_NE(std::string(error.what()).find("Scale it"), std::string::npos) << error.what();
+        EXPECT_TRUE(holds(error.what(), "Scale it"));
       }
     }
     // The advice: within the limits it comes out.
@@ -896,8 +889,7 @@ TEST(Remesh, RefusesScansBeyondTheRangeOfNumbers) {
 
 TEST(Remesh, WarnsOfCoordinatesThatTheFileHasSpoilt) {
   IndexedMesh scan = test::lumpy(5);
-  EXPECT_FALSE(
-      has_warning(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
+  EXPECT_FALSE(warns_of(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
   for (Vector3& p : scan.points) {
     p += Vector3(3e4, 0, 0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -906,8 +898,7 @@ TEST(Remesh, WarnsOfCoordinatesThatTheFileHasSpoilt) {
       p[axis] = single;
     }
   }
-  EXPECT_TRUE(
-      has_warning(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
+  EXPECT_TRUE(warns_of(remesh(scan, options_of(100, Weighting::Area), Execution(1)), "precision"));
 }
 
 TEST(Remesh, HalfEdgeMeshesGoInAndOut) {
@@ -1026,7 +1017,7 @@ TEST(RemeshErrorTarget, SaysSoWhenTheLimitIsTooLow) {
   EXPECT_FALSE(result.search->met);
   EXPECT_EQ(result.mesh.points.size(), 80U);
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings.back().text().find("has an error of at most"), std::string::npos);
+  EXPECT_TRUE(holds(result.warnings.back().text(), "has an error of at most"));
 }
 
 TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {
@@ -1040,8 +1031,7 @@ TEST(RemeshErrorTarget, StopsAtOnceWhereTheSeriesItselfIsFartherOff) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-    EXPECT_NE(std::string(error.what()).find("Nodes on it are not closer"), std::string::npos)
-        << error.what();
+    EXPECT_TRUE(holds(error.what(), "Nodes on it are not closer"));
   }
   options.method = OnScanOptions();  // the advice
   EXPECT_TRUE(remesh(cube, options, Execution(1)).search->met);

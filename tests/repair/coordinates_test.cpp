@@ -9,11 +9,14 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/repair/mesh_check.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 IndexedMesh rounded(IndexedMesh mesh, const Vector3& offset, double step) {
   for (Vector3& p : mesh.points) {
@@ -33,8 +36,8 @@ TEST(Coordinates, SinglePrecisionFarAwayIsNoticed) {
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3::Zero(), 0.0)), "");
   EXPECT_EQ(precision_warning(rounded(mesh, Vector3(1000, 0, 0), 0.0)), "");
   const std::string far = precision_warning(rounded(mesh, Vector3(0, -1e6, 0), 0.0));
-  EXPECT_NE(far.find("The scan is so far from the origin"), std::string::npos) << far;
-  EXPECT_NE(far.find("at one point"), std::string::npos) << far;
+  EXPECT_TRUE(holds(far, "The scan is so far from the origin"));
+  EXPECT_TRUE(holds(far, "at one point"));
   // The advice: moved first, or kept in double.
   IndexedMesh in_double = mesh;
   for (Vector3& p : in_double.points) p += Vector3(0, -1e6, 0);
@@ -70,8 +73,8 @@ TEST(Coordinates, TooFewDecimalsAreNoticed) {
   const IndexedMesh fine = test::lumpy(7);
   for (const auto& [step, told] : {std::pair(0.1, "steps of 0.1,"), {0.01, "steps of 0.01,"}}) {
     const std::string coarse = precision_warning(rounded(fine, Vector3::Zero(), step));
-    EXPECT_NE(coarse.find(told), std::string::npos) << coarse;
-    EXPECT_NE(coarse.find("more digits"), std::string::npos) << coarse;
+    EXPECT_TRUE(holds(coarse, told));
+    EXPECT_TRUE(holds(coarse, "more digits"));
   }
 }
 

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "support/voxel_body.h"
@@ -31,6 +32,7 @@ namespace {
 
 using test::bad_edges;
 using test::box;
+using test::holds;
 using test::joined;
 using test::moved;
 using test::sphere;
@@ -57,7 +59,7 @@ std::string refusal(const IndexedMesh& mesh, const MeshCheckOptions& options = M
 
 void expect_mentions(const std::string& sentence, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
-    EXPECT_NE(sentence.find(part), std::string::npos) << "\"" << part << "\" in: " << sentence;
+    EXPECT_TRUE(holds(sentence, part));
   }
 }
 
@@ -746,7 +748,7 @@ TEST(MeshCheck, NamesAStrayVertex) {
     EXPECT_EQ(sentence == "", far == 30.0) << sentence;
     if (far > 30.0) expect_mentions(sentence, {"Vertex 300, counted from 0, lies at (", "Correct"});
     // The square of the farthest distance is no number.
-    EXPECT_EQ(sentence.find("inf"), std::string::npos) << sentence;
+    EXPECT_FALSE(holds(sentence, "inf"));
     EXPECT_EQ(sentence.find(" from its nearest neighbour") != std::string::npos,
               far > 30.0 && far < 1e200)
         << sentence;
@@ -875,7 +877,7 @@ TEST(MeshCheck, LeadsFromOpenPartsToTheirRemeshes) {
     options.repaired_area_limit_percent = 1.0;
     const std::string told = refusal(parts, options);
     expect_mentions(told, {"2 separate bodies", "open", "--parts"});
-    EXPECT_EQ(told.find("shrink-wrap"), std::string::npos) << told;
+    EXPECT_FALSE(holds(told, "shrink-wrap"));
   }
 }
 
@@ -999,8 +1001,8 @@ TEST(MeshCheck, SaysThatSinglePrecisionFarFromTheOriginLeftNoVolume) {
   for (Vector3& point : mesh.points) point = point.cast<float>().cast<double>();
   const std::string sentence =
       test::refusal(ErrorCode::InvalidInput, [&] { check_mesh(mesh, {}, Execution(1)); });
-  EXPECT_NE(sentence.find("single precision"), std::string::npos) << sentence;
-  EXPECT_EQ(sentence.find("flat"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "single precision"));
+  EXPECT_FALSE(holds(sentence, "flat"));
 }
 
 }  // namespace

@@ -10,12 +10,15 @@
 #include <vector>
 
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 GrainMeasures one() {
   return measure_grain({"ball, \"one\"", test::sphere(4)}, std::nullopt, DetailedOptions(),
@@ -82,7 +85,7 @@ TEST(DescriptorReport, HoldsTheMassProperties) {
               std::pow(1.1, 5), 1e-9);
   std::string text;
   for (const std::string& line : descriptor_lines(pair)) text += line + "\n";
-  EXPECT_NE(text.find("principal moments"), std::string::npos);
+  EXPECT_TRUE(holds(text, "principal moments"));
 }
 
 TEST(DescriptorReport, CsvIsTheJsonWithoutItsLists) {
@@ -104,7 +107,7 @@ TEST(DescriptorReport, TheSummaryIsShortAndHasLinesOfTheWholeText) {
       EXPECT_LE(line.size(), 80U) << line;
       if (line.rfind("Distance ", 0) == 0) continue;  // the numbers are tested below
       const std::string row = std::regex_replace(line, std::regex(" +"), " ") + "\n";
-      EXPECT_NE(all.find(row), std::string::npos) << line;
+      EXPECT_TRUE(holds(all, row)) << line;
       ++rows;
     }
     EXPECT_EQ(rows, measures.reference ? 10U : 9U);
@@ -113,8 +116,8 @@ TEST(DescriptorReport, TheSummaryIsShortAndHasLinesOfTheWholeText) {
   const std::string last = summary_lines(pair).back();
   const double radius = pair.reference->checked.report.equivalent_radius;
   const auto percent = [&](double d) { return format_number(100.0 * d / radius, 3) + " %"; };
-  EXPECT_NE(last.find("rms " + percent(pair.distances->root_mean_square)), std::string::npos);
-  EXPECT_NE(last.find("largest " + percent(pair.distances->largest)), std::string::npos) << last;
+  EXPECT_TRUE(holds(last, "rms " + percent(pair.distances->root_mean_square)));
+  EXPECT_TRUE(holds(last, "largest " + percent(pair.distances->largest)));
 }
 
 TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {
@@ -128,10 +131,10 @@ TEST(DescriptorReport, TextHasARowForEveryDescriptorAndDistance) {
                                   ? row.label
                                   : row.label.substr(0, cutoff) + " (each at its cut-off)";
     const std::string unit = row.unit.empty() ? "" : ", " + row.unit;
-    EXPECT_NE(text.find("  " + label + unit + " "), std::string::npos) << label;
+    EXPECT_TRUE(holds(text, "  " + label + unit + " ")) << label;
   }
   for (const DistanceRow& row : list_distances(pair)) {
-    EXPECT_NE(text.find("  " + row.label + " "), std::string::npos) << row.label;
+    EXPECT_TRUE(holds(text, "  " + row.label + " ")) << row.label;
   }
   EXPECT_TRUE(distance_lines(one()).empty());
 }

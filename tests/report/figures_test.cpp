@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/report/mesh_view.h"
@@ -22,6 +23,7 @@ namespace wscvt {
 namespace {
 
 using test::count_of;
+using test::holds;
 
 /// The numbers in a text from a place on, as many as there are before another sign.
 std::vector<double> numbers_after(const std::string& text, const std::string& before,
@@ -87,10 +89,10 @@ TEST(Figures, HistogramsShowEverySeriesByItsName) {
   const std::string svg = histogram_figure(
       "length", "edges", {{"<one>", "#111111", histogram}, {"two", "#222222", histogram}});
   EXPECT_EQ(count_of(svg, "<path"), 2U);
-  EXPECT_NE(svg.find("&lt;one&gt;"), std::string::npos);
-  EXPECT_NE(svg.find(">two<"), std::string::npos);
-  EXPECT_NE(svg.find("fraction of the edges, %"), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_TRUE(holds(svg, "&lt;one&gt;"));
+  EXPECT_TRUE(holds(svg, ">two<"));
+  EXPECT_TRUE(holds(svg, "fraction of the edges, %"));
+  EXPECT_FALSE(holds(svg, "nan"));
   // Each name has a patch of its colour beside it, which without a width would not be seen.
   for (const char* side : {"width", "height"}) {
     const std::vector<double> sides = attributes(svg, "rect", side);
@@ -98,17 +100,16 @@ TEST(Figures, HistogramsShowEverySeriesByItsName) {
     for (const double length : sides) EXPECT_GT(length, 0.0) << side;
   }
   // Nothing counted is nothing drawn, not a division by it.
-  EXPECT_EQ(histogram_figure("x", "y", {{"none", "#111111", {0.0, 1.0, {0, 0}}}}).find("nan"),
-            std::string::npos);
+  EXPECT_FALSE(holds(histogram_figure("x", "y", {{"none", "#111111", {0.0, 1.0, {0, 0}}}}), "nan"));
 }
 
 TEST(Figures, CurvesLeaveOutWhatHasNoLogarithm) {
   const std::string svg =
       logarithmic_figure("N", "error", {{200, 1.0}, {100, 2.0}, {50, INFINITY}, {400, 0.0}}, 1.5);
   EXPECT_EQ(count_of(svg, "<circle"), 2U);
-  EXPECT_NE(svg.find("target 1.5"), std::string::npos);
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_TRUE(holds(svg, "target 1.5"));
+  EXPECT_FALSE(holds(svg, "nan"));
+  EXPECT_FALSE(holds(svg, "inf"));
   EXPECT_EQ(count_of(logarithmic_figure("N", "error", {{100, 2.0}}, 2.0), "<circle"), 1U);
   EXPECT_EQ(count_of(logarithmic_figure("N", "error", {}, 2.0), "<circle"), 0U);
 }
@@ -284,7 +285,7 @@ TEST(Figures, HistogramsOfTrianglesAreThoseOfTheirTitles) {
       {">longest / shortest edge of a triangle<", 0.05},
       {">angle, degrees<", 1.0 / 3.0}};
   for (std::size_t k = 0; k < expected.size(); ++k) {
-    EXPECT_NE(figures[k].content.find(expected[k].first), std::string::npos);
+    EXPECT_TRUE(holds(figures[k].content, expected[k].first));
     const std::vector<double> path = numbers_after(figures[k].content, " d=\"M", "LMZ");
     double sum = 0.0;
     double heights = 0.0;

@@ -12,6 +12,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -28,6 +29,7 @@ namespace wscvt {
 namespace {
 
 using test::count_of;
+using test::holds;
 
 TEST(HtmlDocument, WritesSignsOut) {
   HtmlDocument page("a < b & \"c\"");
@@ -36,9 +38,9 @@ TEST(HtmlDocument, WritesSignsOut) {
   page.add_lines({"<pre>"});
   page.add_figures({{"<svg></svg>", "<caption>"}});
   const std::string text = page.text();
-  EXPECT_NE(text.find("<title>a &lt; b &amp; &quot;c&quot;</title>"), std::string::npos);
+  EXPECT_TRUE(holds(text, "<title>a &lt; b &amp; &quot;c&quot;</title>"));
   for (const char* raw : {"<script>", "<caption>"}) {
-    EXPECT_EQ(text.find(raw), std::string::npos) << raw;
+    EXPECT_FALSE(holds(text, raw));
   }
   EXPECT_EQ(count_of(text, "<svg>"), 1U);
   EXPECT_EQ(count_of(text, "<div"), count_of(text, "</div>"));
@@ -52,22 +54,21 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   options.measures.repaired_scan = true;
   const RemeshResult shown = remesh(scan, options, Execution(1));
   const std::string page = report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(1));
-  EXPECT_NE(page.find("<title>Remesh of &lt;sand&gt;.ply with 100 nodes"), std::string::npos);
-  EXPECT_NE(page.find("Made from &lt;sand&gt;.ply by " + made_by() + " on 2026-11-21."),
-            std::string::npos);
+  EXPECT_TRUE(holds(page, "<title>Remesh of &lt;sand&gt;.ply with 100 nodes"));
+  EXPECT_TRUE(holds(page, "Made from &lt;sand&gt;.ply by " + made_by() + " on 2026-11-21."));
   EXPECT_EQ(count_of(page, "<img"), 3U);
   EXPECT_EQ(count_of(page, "<svg"), 5U);  // four histograms and the scale of the colours
   EXPECT_EQ(count_of(page, "</figure>"), 7U);
   // One file: nothing is fetched, and no two parts have one name: the scale and the views' data.
-  EXPECT_EQ(page.find("http"), std::string::npos);
+  EXPECT_FALSE(holds(page, "http"));
   EXPECT_EQ(count_of(page, " id="), 2U);
   EXPECT_EQ(count_of(page, "\"place\":"), 3U);
   EXPECT_EQ(count_of(page, " data-view="), 3U);
-  EXPECT_EQ(page.find(">nan"), std::string::npos);
-  EXPECT_EQ(page.find("\"nan"), std::string::npos);
-  EXPECT_EQ(page.find(">-0<"), std::string::npos);
-  EXPECT_NE(page.find("<td>--weighting=wscvt-d</td>"), std::string::npos);
-  EXPECT_NE(page.find("principal moments"), std::string::npos);
+  EXPECT_FALSE(holds(page, ">nan"));
+  EXPECT_FALSE(holds(page, "\"nan"));
+  EXPECT_FALSE(holds(page, ">-0<"));
+  EXPECT_TRUE(holds(page, "<td>--weighting=wscvt-d</td>"));
+  EXPECT_TRUE(holds(page, "principal moments"));
   EXPECT_EQ(page, report_html(shown, {"<sand>.ply", "2026-11-21"}, Execution(2)));
 
   RemeshResult warned = shown;
@@ -101,17 +102,15 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   for (const NodeCountTrial& trial : searched.search->trials) {
     points_of_curve.push_back({static_cast<double>(trial.node_count), trial.error});
   }
-  EXPECT_NE(with_curve.find(logarithmic_figure("number of nodes", "volume error, %",
-                                               std::move(points_of_curve), 3.0)),
-            std::string::npos);
+  EXPECT_TRUE(holds(with_curve, logarithmic_figure("number of nodes", "volume error, %",
+                                                   std::move(points_of_curve), 3.0)));
 
   for (const bool asked : {false, true}) {
     options.measures.distances = asked;
     RemeshResult result = searched;
     result.options = options;
-    EXPECT_NE(report_html(result, {}, Execution(1))
-                  .find(asked ? "<td>--distances=true</td>" : "<td>--distances=false</td>"),
-              std::string::npos);
+    EXPECT_TRUE(holds(report_html(result, {}, Execution(1)),
+                      asked ? "<td>--distances=true</td>" : "<td>--distances=false</td>"));
   }
 }
 
@@ -122,15 +121,15 @@ TEST(Page, OfDescriptorsNamesTheGrains) {
   const std::string alone = descriptor_html(measures, {"", "2026-11-21"}, Execution(1));
   EXPECT_EQ(count_of(alone, "<img"), 1U);
   EXPECT_EQ(count_of(alone, "<svg"), 3U);
-  EXPECT_NE(alone.find("<title>Shape of remesh.ply<"), std::string::npos);
-  EXPECT_NE(alone.find("by " + made_by() + " on 2026-11-21."), std::string::npos);
+  EXPECT_TRUE(holds(alone, "<title>Shape of remesh.ply<"));
+  EXPECT_TRUE(holds(alone, "by " + made_by() + " on 2026-11-21."));
   measures.reference = {"<b>scan</b>", checked, DetailedDescriptors()};
   measures.distances.emplace();
   const std::string compared = descriptor_html(measures, {}, Execution(1));
   EXPECT_EQ(count_of(compared, "<img"), 3U);
   EXPECT_EQ(count_of(compared, "<svg"), 5U);
-  EXPECT_NE(compared.find(">&lt;b&gt;scan&lt;/b&gt;</text>"), std::string::npos);
-  EXPECT_EQ(compared.find("<b>"), std::string::npos);
+  EXPECT_TRUE(holds(compared, ">&lt;b&gt;scan&lt;/b&gt;</text>"));
+  EXPECT_FALSE(holds(compared, "<b>"));
 }
 
 TEST(Reports, SayWhatTheyAreOfAndWhenTheyWereMade) {
@@ -179,7 +178,7 @@ TEST_F(ReportFiles, TableSaysWhyItCannotBeWritten) {
     for (const auto& call : {check_table, append_to_table}) {
       const std::string refusal =
           test::refusal(ErrorCode::InputOutput, [&] { call(table, "a,b\r\n3,4\r\n"); });
-      EXPECT_NE(refusal.find(sentence), std::string::npos) << refusal;
+      EXPECT_TRUE(holds(refusal, sentence));
     }
   }
 }
@@ -193,7 +192,7 @@ TEST_F(ReportFiles, TableRefusesAnotherHeaderAndLeavesTheFile) {
         ADD_FAILURE() << "not refused: " << other;
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ErrorCode::InvalidInput);
-        EXPECT_NE(std::string(error.what()).find("new file"), std::string::npos);
+        EXPECT_TRUE(holds(error.what(), "new file"));
       }
       EXPECT_EQ(content(), other);
     }

@@ -14,6 +14,7 @@
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/measures/descriptor_table.h"
 #include "wscvt/measures/descriptors.h"
@@ -25,6 +26,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// A result as the remesher fills it in, with a sphere of 10242 nodes as the scan.
 RemeshResult example() {
@@ -82,10 +85,6 @@ std::string text_of(const RemeshResult& result) {
   return text;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Report, TextSaysWhatHappened) {
   const std::string text = text_of(example());
   for (const char* part :
@@ -93,17 +92,17 @@ TEST(Report, TextSaysWhatHappened) {
         "degree 20, residual 0.0039 (0.39 % of the equivalent radius)", "WSCVT-D",
         "converged after 2 iterations", "displacement 0.0009 h",
         "642 nodes, 1280 faces, placement: SH surface", "error %"}) {
-    EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;
+    EXPECT_TRUE(holds(text, part));
   }
-  EXPECT_FALSE(contains(text, "lowered"));
-  EXPECT_FALSE(contains(text, "Warning"));
+  EXPECT_FALSE(holds(text, "lowered"));
+  EXPECT_FALSE(holds(text, "Warning"));
 }
 
 TEST(Report, TextHasARowForEveryDescriptor) {
   const std::vector<std::string> lines = report_lines(example());
   for (const DescriptorValue& row : list_descriptors(ShapeDescriptors())) {
     EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
-                            [&](const std::string& l) { return contains(l, row.label); }),
+                            [&](const std::string& l) { return holds(l, row.label); }),
               1)
         << row.label;
   }
@@ -166,7 +165,7 @@ TEST(Report, TextNamesRepairsLoweredDegreeAndTheLimit) {
         "degree 9 (lowered from 20: a series of higher degree is not positive everywhere)",
         "not converged: stopped at the limit of 2 iterations", "First warning.",
         "Second warning."}) {
-    EXPECT_TRUE(contains(text, part)) << part << "\nnot in\n" << text;
+    EXPECT_TRUE(holds(text, part));
   }
 }
 
@@ -179,7 +178,7 @@ TEST(Report, SaysHowTheRelaxationEnded) {
       {RelaxationOutcome::IterationLimit, " not converged: stopped at the limit of 2 iterations"}};
   for (const auto& [outcome, text] : texts) {
     published(result).relaxation.outcome = outcome;
-    EXPECT_TRUE(contains(text_of(result), text)) << text_of(result);
+    EXPECT_TRUE(holds(text_of(result), text));
   }
 }
 
@@ -230,12 +229,12 @@ TEST(Report, TellsOfSearchAndLevels) {
   EXPECT_EQ(line_of(result, "Node count"),
             "volume error of at most 0.5 %: met by 642 nodes. Tried 300: not possible, 642: 0.4 %");
   result.search->met = false;
-  EXPECT_TRUE(contains(line_of(result, "Node count"), "not met, not even by 642 nodes"));
-  EXPECT_TRUE(contains(line_of(result, "Relaxation"), "after 2 iterations, displacement"));
+  EXPECT_TRUE(holds(line_of(result, "Node count"), "not met, not even by 642 nodes"));
+  EXPECT_TRUE(holds(line_of(result, "Relaxation"), "after 2 iterations, displacement"));
   published(result).relaxation.coarser_levels = {{40, 8, RelaxationOutcome::Converged},
                                                  {160, 9, RelaxationOutcome::Converged}};
-  EXPECT_TRUE(contains(line_of(result, "Relaxation"),
-                       "after 2 iterations (after 9 with 160 seeds, 8 with 40 seeds), displ"));
+  EXPECT_TRUE(holds(line_of(result, "Relaxation"),
+                    "after 2 iterations (after 9 with 160 seeds, 8 with 40 seeds), displ"));
   std::get<AsPublishedOptions>(result.options.method).sampling = Sampling::Fibonacci;
   EXPECT_EQ(line_of(result, "Sampling"), label_of(Sampling::Fibonacci) + ", not relaxed");
   EXPECT_EQ(line_of(result, "Relaxation"), "");
@@ -354,15 +353,15 @@ TEST(Report, MassTableTellsThePlaceOfAGrainFarFromTheOrigin) {
 
 TEST(Report, TextNamesAlphaOnlyWhereItMatters) {
   RemeshResult result = example();
-  EXPECT_FALSE(contains(text_of(result), "alpha"));
+  EXPECT_FALSE(holds(text_of(result), "alpha"));
   auto& options = std::get<AsPublishedOptions>(result.options.method);
   options.weighting = Weighting::Curvature;
   options.curvature_alpha = 1.25;
-  EXPECT_TRUE(contains(text_of(result), "alpha 1.25"));
+  EXPECT_TRUE(holds(text_of(result), "alpha 1.25"));
   RemeshResult on_scan = on_scan_example();
-  EXPECT_FALSE(contains(text_of(on_scan), "alpha"));
+  EXPECT_FALSE(holds(text_of(on_scan), "alpha"));
   std::get<OnScanOptions>(on_scan.options.method).weighting = CellWeighting::Curvature;
-  EXPECT_TRUE(contains(text_of(on_scan), "alpha 1"));
+  EXPECT_TRUE(holds(text_of(on_scan), "alpha 1"));
 }
 
 TEST(Report, DoesNotDependOnTheLocale) {
@@ -413,7 +412,7 @@ TEST(Report, HoldsTheMassPropertiesOfBothBodies) {
   EXPECT_EQ(mass.at("remesh").at("volume").get<double>(), result.remesh.volume);
   const std::string text = text_of(result);
   for (const char* part : {"principal axes, quaternion w, x, y, z", "7, 8, 9", "2.5, 5, 6.5"}) {
-    EXPECT_TRUE(contains(text, part)) << part;
+    EXPECT_TRUE(holds(text, part));
   }
 }
 
@@ -643,8 +642,8 @@ TEST(Report, AdditionsFollowInDocumentAndPage) {
   json.erase("tetrahedra");
   EXPECT_EQ(json, nlohmann::json::parse(report_json(result)));
   const std::string page = report_html(result, {}, additions, Execution(1));
-  EXPECT_NE(page.find("Tetrahedra: 7 of 9 points"), std::string::npos);
-  EXPECT_EQ(report_html(result, {}, Execution(1)).find("Tetrahedra"), std::string::npos);
+  EXPECT_TRUE(holds(page, "Tetrahedra: 7 of 9 points"));
+  EXPECT_FALSE(holds(report_html(result, {}, Execution(1)), "Tetrahedra"));
 }
 
 TEST(Report, CsvIsTheJsonWithoutItsLists) {
@@ -767,7 +766,7 @@ TEST(ReportSummary, TellsTheErrorsThatAPlainComputationGives) {
   const auto percent = [](double value, double scan) { return 100.0 * (value - scan) / scan; };
   const std::string errors = line_of(lines, "Errors");
   // Errors have three decimals.
-  EXPECT_NE(errors.find("volume exact"), std::string::npos) << errors;
+  EXPECT_TRUE(holds(errors, "volume exact"));
   EXPECT_NEAR(number_behind(errors, " area "), percent(result.remesh.area, result.scan.area), 6e-4);
   EXPECT_NEAR(number_behind(errors, "sphericity "),
               percent(result.remesh.sphericity, result.scan.sphericity), 6e-4);
@@ -804,21 +803,21 @@ TEST(ReportSummary, SdqOfItsClipIsNoFaultOfTheRemesh) {
     for (const std::string& line : summary_lines(result)) text += line + "\n";
     return text;
   };
-  EXPECT_EQ(errors().find("not reliable"), std::string::npos);
+  EXPECT_FALSE(holds(errors(), "not reliable"));
   EXPECT_TRUE(report_warnings(result).empty());
   result.scan.sdq_half_clip = 1.04 * result.scan.sdq;
   result.scan.sdq_clipped_fraction = 0.09;
   EXPECT_EQ(verdict_line(result).substr(verdict_line(result).size() - 6), ": good");
-  EXPECT_NE(errors().find("Sdq not reliable"), std::string::npos) << errors();
+  EXPECT_TRUE(holds(errors(), "Sdq not reliable"));
   // Whoever shows Sdq tells of it.
   const std::vector<Sentence> told = report_warnings(result);
   ASSERT_EQ(told.size(), 1U);
   for (const char* part :
        {"Sdq (invariant form) of the scan is not reliable", "9 % of its square", "4 % larger"}) {
-    EXPECT_NE(told[0].text().find(part), std::string::npos) << told[0].text();
+    EXPECT_TRUE(holds(told[0].text(), part));
   }
-  EXPECT_NE(report_json(result).find("is not reliable"), std::string::npos);
-  EXPECT_NE(report_csv(result).find("is not reliable"), std::string::npos);
+  EXPECT_TRUE(holds(report_json(result), "is not reliable"));
+  EXPECT_TRUE(holds(report_csv(result), "is not reliable"));
   EXPECT_EQ(report_lines(result).back().rfind("Warning     Sdq", 0), 0U);
 }
 

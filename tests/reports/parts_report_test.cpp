@@ -15,6 +15,7 @@
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"
@@ -23,6 +24,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// A box 3 x 2 x 1 as three boxes that are `larger` on each outer side along y and z.
 PartsResult three_boxes(double larger) {
@@ -60,11 +63,11 @@ TEST(PartsPage, HasTheScaleOfTheOuterSurface) {
 TEST(PartsPage, NamesTheSourceTheWarningAndTheNumbers) {
   const PartsResult result = three_boxes(0.05);
   const std::string page = parts_html(result, {"a folder/a & b.ply", "2026-11-26"}, Execution(1));
-  EXPECT_NE(page.find("2026-11-26"), std::string::npos);
-  EXPECT_NE(page.find("<h1>3 convex parts of a &amp; b.ply</h1>"), std::string::npos);
-  EXPECT_NE(page.find("A &lt;warning&gt;."), std::string::npos);
+  EXPECT_TRUE(holds(page, "2026-11-26"));
+  EXPECT_TRUE(holds(page, "<h1>3 convex parts of a &amp; b.ply</h1>"));
+  EXPECT_TRUE(holds(page, "A &lt;warning&gt;."));
   for (const std::string& line : parts_lines(result)) {
-    EXPECT_NE(page.find(html_escaped(line)), std::string::npos) << line;
+    EXPECT_TRUE(holds(page, html_escaped(line))) << line;
   }
 }
 
@@ -126,12 +129,12 @@ TEST(PartsReportNumbers, StandUnderTheirNames) {
 
   PartsResult exact = result;
   exact.measures.parts_volume = (1.0 - 3e-15) * exact.measures.grain_volume;
-  EXPECT_NE(parts_lines(exact)[3].find("grain's: exact, and"), std::string::npos);
+  EXPECT_TRUE(holds(parts_lines(exact)[3], "grain's: exact, and"));
 
   PartsResult one = result;
   one.parts.resize(1);
   EXPECT_EQ(parts_lines(one)[0], "Convex parts: 1, 12 faces");
-  EXPECT_NE(parts_html(one, {}, Execution(1)).find("<h1>1 convex part<"), std::string::npos);
+  EXPECT_TRUE(holds(parts_html(one, {}, Execution(1)), "<h1>1 convex part<"));
 }
 
 class PartsTable : public test::FileFolder {};

@@ -18,6 +18,7 @@
 
 #include "support/file_folder.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
@@ -31,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Document = nlohmann::ordered_json;
+using test::holds;
 
 /// Grains with sizes 1, 2, ..., whose names could end an element of a page. Those of the other
 /// sample are larger.
@@ -160,7 +162,7 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
   EXPECT_LT(std::abs(trend.trusted.value), 0.3);
   // Fifths of eight grains: 8 to 15 voxels, then 16 and more.
   ASSERT_EQ(one.sample.notes.size(), 2U);
-  EXPECT_NE(one.sample.notes[0].find("sphericity_wadell of 1 of 40 grains"), std::string::npos);
+  EXPECT_TRUE(holds(one.sample.notes[0], "sphericity_wadell of 1 of 40 grains"));
   EXPECT_EQ(one.sample.notes[1].rfind("8 grains of size 0.8 to 1.5 mm have 11.5 voxels across", 0),
             0U)
       << one.sample.notes[1];
@@ -172,7 +174,7 @@ TEST(SampleReport, TellsWhichTrendsAreTheVoxels) {
         << line;
     text += line + "\n";
   }
-  EXPECT_NE(text.find("correlation with size"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "correlation with size"));
   const Document json = Document::parse(sample_json(report));
   const Document& told = json["samples"][0]["trends_with_voxels"]["sphericity_wadell"];
   EXPECT_EQ(told["raw"]["value"].get<double>(), trend.raw.value);
@@ -243,7 +245,7 @@ TEST(SampleReport, TellsTheVoxelsOfASecondSample) {
     EXPECT_EQ(test::table_named(page, name, are_both ? 1 : 0), expected);
     EXPECT_EQ(test::table_named(page, name, are_both ? 2 : 1), test::Rows());
   }
-  EXPECT_EQ(page_of({meshes, meshes}).find("id=\"voxels\""), std::string::npos);
+  EXPECT_FALSE(holds(page_of({meshes, meshes}), "id=\"voxels\""));
 }
 
 TEST(SampleReport, TakesTheFinestTableAndEachSamplesOwnDensity) {
@@ -277,17 +279,17 @@ TEST(VoxelLines, TellErrorsAndTooManyNodes) {
   const std::vector<std::string> lines = voxel_lines(table);
   ASSERT_EQ(lines.size(), 2U);
   // Hazen's quantiles of 8, 9, ..., 47; the area is .95 of the corrected one.
-  EXPECT_NE(lines[0].find("11.5, 27.5, 43.5 (10, 50, 90 %)"), std::string::npos) << lines[0];
-  EXPECT_NE(lines[0].find("area -5"), std::string::npos) << lines[0];
-  EXPECT_NE(lines[0].find("sphericity of 1 of 40 grains"), std::string::npos) << lines[0];
+  EXPECT_TRUE(holds(lines[0], "11.5, 27.5, 43.5 (10, 50, 90 %)"));
+  EXPECT_TRUE(holds(lines[0], "area -5"));
+  EXPECT_TRUE(holds(lines[0], "sphericity of 1 of 40 grains"));
   // A node of each 2 by 2 voxels: .95 * 3 / 4 across^2 < 300 below 20.5 voxels.
-  EXPECT_NE(lines[1].find("13 of 40 grains"), std::string::npos) << lines[1];
+  EXPECT_TRUE(holds(lines[1], "13 of 40 grains"));
   // The median grain is between those of 27 and 28: .7125 (27^2 + 28^2) / 2.
-  EXPECT_NE(lines[1].find(": 539 are enough for the median grain"), std::string::npos) << lines[1];
+  EXPECT_TRUE(holds(lines[1], ": 539 are enough for the median grain"));
   const Eigen::VectorXd of_sphericity =
       100.0 * (table.values.col(3).array() / table.values.col(7).array() - 1.0);
   const std::string median = format_error(test::PlainStatistics(of_sphericity).quantile(0.5));
-  EXPECT_NE(lines[0].find("sphericity " + median + " %"), std::string::npos) << lines[0];
+  EXPECT_TRUE(holds(lines[0], "sphericity " + median + " %"));
   table.values.col(8).setConstant(40.0);
   EXPECT_EQ(voxel_lines(table).size(), 1U);
   table.values.col(5).setConstant(std::nan(""));
@@ -306,7 +308,7 @@ TEST(SampleReport, LinesFitATerminalAndNameTheSize) {
   }
   for (const char* part : {"first: 40 grains", "second & last", "second largest edge", "box, mm\n",
                            "D60", "Wasserstein", "convexity", "next line."}) {
-    EXPECT_NE(text.find(part), std::string::npos) << part;
+    EXPECT_TRUE(holds(text, part));
   }
 }
 
@@ -328,15 +330,13 @@ TEST(SampleReport, TheSummaryIsShortAndHasOneTable) {
       if (text.find(other) != std::string::npos) ++tables;
     }
     EXPECT_EQ(tables, 1U);
-    EXPECT_NE(text.find(heading), std::string::npos) << text;
-    EXPECT_NE(text.find("\nconvexity "), std::string::npos) << text;
+    EXPECT_TRUE(holds(text, heading));
+    EXPECT_TRUE(holds(text, "\nconvexity "));
     for (const ReportedSample& sample : report->samples) {
       const SizeEstimates& sizes = sample.statistics.size_by_mass;
-      EXPECT_NE(text.find("Sieve size, mm by mass: D10 " + shown(sizes.d10.value, sizes.d10) +
-                          ", D50 " + shown(sizes.d50.value, sizes.d50) + ", D90 " +
-                          shown(sizes.d90.value, sizes.d90)),
-                std::string::npos)
-          << text;
+      EXPECT_TRUE(holds(text, "Sieve size, mm by mass: D10 " + shown(sizes.d10.value, sizes.d10) +
+                                  ", D50 " + shown(sizes.d50.value, sizes.d50) + ", D90 " +
+                                  shown(sizes.d90.value, sizes.d90)));
     }
   }
 }
@@ -391,20 +391,20 @@ TEST(SampleReport, APageHoldsItsDataAndLoadsNothing) {
   const Document data = data_of(page);
   const Document& first = data.at("samples").at(0);
   EXPECT_EQ(first.at("grains").at(4), "script><!--4") << "names without folders";
-  EXPECT_EQ(page.find("<!--"), std::string::npos) << "names end no element and begin no comment";
+  EXPECT_FALSE(holds(page, "<!--")) << "names end no element and begin no comment";
   EXPECT_EQ(first.at("size").at(4), 5.0);
   EXPECT_EQ(first.at("values").at(0).at(4), 125.0);
   EXPECT_TRUE(first.at("values").at(4).at(1).is_null());
   EXPECT_EQ(first.at("thumbs").size(), 1U);
   EXPECT_EQ(first.at("thumbs").at("4").get<std::string>().rfind("data:image/png;base64,", 0), 0U);
   EXPECT_TRUE(data.at("levels").is_null());
-  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-  EXPECT_EQ(page.find("<link"), std::string::npos);
-  EXPECT_NE(page.find("second &amp; last"), std::string::npos);
+  EXPECT_FALSE(holds(page, "src=\"http"));
+  EXPECT_FALSE(holds(page, "<link"));
+  EXPECT_TRUE(holds(page, "second &amp; last"));
   // Each figure that the script fills has its place.
   for (const char* id : {"curves", "forms-choice", "forms", "distributions-choice", "distributions",
                          "needed", "wanted", "thumb-choice", "thumbs"}) {
-    EXPECT_NE(page.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+    EXPECT_TRUE(holds(page, "id=\"" + std::string(id) + "\"")) << id;
   }
 }
 
@@ -422,7 +422,7 @@ TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   ASSERT_EQ(sizes.size(), 10000U);
   EXPECT_EQ(sizes.front(), 1.0);
   EXPECT_EQ(sizes.back(), 1e6);
-  EXPECT_NE(page.find("Figures show 10000 of the grains"), std::string::npos);
+  EXPECT_TRUE(holds(page, "Figures show 10000 of the grains"));
   // 50 descriptors of them fit in 6 MB with a name and a number.
   const double bytes_a_number = (static_cast<double>(page.size()) - 10000.0 * 18.0) / 70000.0;
   EXPECT_LT(bytes_a_number, 11.0);
@@ -497,8 +497,7 @@ TEST_F(SampleReportFile, KnowsTheBatchOfItsFolderButNoOtherTable) {
     EXPECT_EQ(page.find("Broken.") != std::string::npos, is_batch);
     EXPECT_EQ(page.find("one: 2 grains. Size") != std::string::npos, !is_batch);
     if (!is_batch) continue;
-    EXPECT_NE(page.find("one: 2 grains: 1 remeshed, 0 of them with warnings, 1 failed."),
-              std::string::npos);
+    EXPECT_TRUE(holds(page, "one: 2 grains: 1 remeshed, 0 of them with warnings, 1 failed."));
     ASSERT_EQ(batch->farthest.size(), 1U);
     EXPECT_EQ(fs::path(batch->farthest[0].file).filename(), "b.ply");
   }
@@ -525,7 +524,7 @@ TEST_F(SampleReportFile, OfTwoLargeSamplesShowsHalfOfEach) {
     sample.values.setOnes(grains, 5);
   }
   const std::string page = sample_html(report, Execution(1));
-  EXPECT_NE(page.find("<h1>Samples first and second &amp; last</h1>"), std::string::npos);
+  EXPECT_TRUE(holds(page, "<h1>Samples first and second &amp; last</h1>"));
   EXPECT_EQ(test::count_of(page, "Figures show 5000 of the grains"), 2U);
   const Document samples = data_of(page).at("samples");
   EXPECT_EQ(samples.at(0).at("sizeName"), "sieve size, mm");
@@ -735,7 +734,7 @@ TEST(SampleReportNumbers, OfGrainsThatAreAllEqualAreNoDistanceInDeviations) {
   EXPECT_GT(report.comparison[1].by_number.wasserstein, 0.0);
   for (const std::size_t cell : {3, 7}) EXPECT_EQ(page[2][cell], "-") << page[2][0];
   for (const std::string& line : sample_lines(report)) {
-    EXPECT_EQ(line.find(" inf"), std::string::npos) << line;
+    EXPECT_FALSE(holds(line, " inf"));
   }
 }
 
@@ -871,11 +870,11 @@ TEST(SampleReportNumbers, TellGrainsFailuresNotesAndWhatIsDrawn) {
   report.samples[0].sample.failed = 3;
   report.samples[1].sample.notes = {"One note."};
   const std::string html = sample_html(report, Execution(1));
-  EXPECT_NE(html.find("<p>first: 12 grains, 3 failed. Size: "), std::string::npos);
-  EXPECT_NE(html.find("<p>second &amp; last: 12 grains. Size: "), std::string::npos);
-  EXPECT_NE(html.find("<p class=\"warning\">One note.</p>"), std::string::npos);
-  EXPECT_NE(html.find("95 % intervals from 20 random samples"), std::string::npos);
-  EXPECT_NE(html.find("seed " + std::to_string(report.options.seed) + ")"), std::string::npos);
+  EXPECT_TRUE(holds(html, "<p>first: 12 grains, 3 failed. Size: "));
+  EXPECT_TRUE(holds(html, "<p>second &amp; last: 12 grains. Size: "));
+  EXPECT_TRUE(holds(html, "<p class=\"warning\">One note.</p>"));
+  EXPECT_TRUE(holds(html, "95 % intervals from 20 random samples"));
+  EXPECT_TRUE(holds(html, "seed " + std::to_string(report.options.seed) + ")"));
   const auto lines = sample_lines(report);
   EXPECT_NE(std::find(lines.begin(), lines.end(), "first: 12 grains, 3 failed"), lines.end());
   EXPECT_NE(std::find(lines.begin(), lines.end(), "second & last: 12 grains"), lines.end());

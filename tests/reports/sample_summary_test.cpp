@@ -15,6 +15,7 @@
 
 #include "support/expect_error.h"
 #include "support/flat_json.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/plain_statistics.h"
 #include "support/test_shapes.h"
@@ -26,6 +27,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class SampleSummaryOfAFile : public testing::Test {
  protected:
@@ -101,7 +104,7 @@ TEST_F(SampleSummaryOfAFile, CountsGrainsAndTheirNumbers) {
   EXPECT_NEAR(radius.at("standard_deviation").get<double>(), std::sqrt(12.5), 1e-12);
   EXPECT_NEAR(json.at("distributions").at("elongation").at("mean").get<double>(), 0.5, 1e-12);
   EXPECT_NEAR(json.at("distributions").at("flatness").at("mean").get<double>(), 0.5, 1e-12);
-  EXPECT_NE(page_of(summary).find("Broken."), std::string::npos);
+  EXPECT_TRUE(holds(page_of(summary), "Broken."));
   EXPECT_EQ(summary_lines(summary).front(),
             "6 grains: 5 remeshed, 1 of them with warnings, 1 failed");
   EXPECT_EQ(summary_lines(summary)[1], "Warnings: warned");
@@ -123,7 +126,7 @@ TEST_F(SampleSummaryOfAFile, NamesTheGrainsWithWarningsThatFitOnALine) {
   EXPECT_EQ(line.rfind("Warnings: grain_0, grain_1, ", 0), 0U) << line;
   // Those that are named and those that are counted are all.
   const auto named = std::count(line.begin(), line.end(), ',') + 1;
-  EXPECT_NE(line.find(" and " + std::to_string(250 - named) + " more"), std::string::npos) << line;
+  EXPECT_TRUE(holds(line, " and " + std::to_string(250 - named) + " more"));
 }
 
 TEST_F(SampleSummaryOfAFile, EveryDistributionIsOfItsOwnColumn) {
@@ -198,7 +201,7 @@ TEST_F(SampleSummaryOfAFile, NamesOnlyTheFirstOfManyFailures) {
   const SampleSummary summary = summarise_table(path_);
   EXPECT_EQ(summary.failed, most_failures_named + 7);
   EXPECT_EQ(summary.failures.size(), most_failures_named);
-  EXPECT_NE(page_of(summary).find("And 7 more"), std::string::npos);
+  EXPECT_TRUE(holds(page_of(summary), "And 7 more"));
 }
 
 TEST_F(SampleSummaryOfAFile, CountsTheWarningsThatItDoesNotName) {
@@ -207,7 +210,7 @@ TEST_F(SampleSummaryOfAFile, CountsTheWarningsThatItDoesNotName) {
     table += sample_row("odd", grain_of(1.0, {"Odd."}));
   }
   write(table);
-  EXPECT_NE(page_of(summarise_table(path_)).find("And 7 more"), std::string::npos);
+  EXPECT_TRUE(holds(page_of(summarise_table(path_)), "And 7 more"));
 }
 
 TEST_F(SampleSummaryOfAFile, OfEquallyFarRemeshesTheFirstIsFirst) {
@@ -226,12 +229,11 @@ TEST_F(SampleSummaryOfAFile, OfEquallyFarRemeshesTheFirstIsFirst) {
 TEST_F(SampleSummaryOfAFile, HasTheStatesOfTheLabels) {
   write(sample_header() + sample_row("a", grain_of(1.0)));
   SampleSummary summary = summarise_table(path_);
-  EXPECT_EQ(summary_json(summary).find("\"labels\""), std::string::npos);
+  EXPECT_FALSE(holds(summary_json(summary), "\"labels\""));
   summary.labels = {{"all", 7}, {"written", 5}, {"at the border", 2}};
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   EXPECT_EQ(json.at("labels").at("at the border"), 2);
-  EXPECT_NE(page_of(summary).find("<p>7 labels: 5 written, 2 at the border.</p>"),
-            std::string::npos);
+  EXPECT_TRUE(holds(page_of(summary), "<p>7 labels: 5 written, 2 at the border.</p>"));
 }
 
 TEST(CensusLine, TellsEachStateThatThereIs) {
@@ -260,12 +262,12 @@ TEST_F(SampleSummaryOfAFile, ThePageHasTheOptionsOfAllGrains) {
   write(sample_header() + failed_row("bad", "Broken.") + sample_row("a", first) +
         sample_row("b", first));
   std::string page = page_of(summarise_table(path_));
-  EXPECT_NE(page.find(", nodes 321,"), std::string::npos);
-  EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
+  EXPECT_TRUE(holds(page, ", nodes 321,"));
+  EXPECT_TRUE(holds(page, ", edge-ratio 1.25,"));
   write(sample_header() + sample_row("a", first) + sample_row("b", second));
   page = page_of(summarise_table(path_));
-  EXPECT_NE(page.find(", nodes several,"), std::string::npos);
-  EXPECT_NE(page.find(", edge-ratio 1.25,"), std::string::npos);
+  EXPECT_TRUE(holds(page, ", nodes several,"));
+  EXPECT_TRUE(holds(page, ", edge-ratio 1.25,"));
 }
 
 TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
@@ -278,7 +280,7 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
   table += failed_row("folder/bad.ply", "Broken.");
   write(table);
   SampleSummary summary = summarise_table(path_);
-  EXPECT_EQ(page_of(summary).find("farthest"), std::string::npos) << "no file is known";
+  EXPECT_FALSE(holds(page_of(summary), "farthest")) << "no file is known";
   ASSERT_EQ(summary.farthest.size(), most_grains_shown);
   const std::string mesh = path_ + ".ply";
   write_mesh(test::tetrahedron(2.0), mesh);
@@ -288,13 +290,13 @@ TEST_F(SampleSummaryOfAFile, ThePageShowsTheFarthestRemeshesFirst) {
   }
   const std::string page = page_of(summary);
   std::remove(mesh.c_str());
-  EXPECT_NE(page.find("The 13 of 150 remeshes that are farthest"), std::string::npos);
+  EXPECT_TRUE(holds(page, "The 13 of 150 remeshes that are farthest"));
   const auto name = [&](std::size_t k) {
     return summary.farthest[k].grain.substr(7, summary.farthest[k].grain.size() - 11) + "<br>";
   };
   const std::size_t first = page.find(name(0) + "15 %");
   ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(page.find(name(1)), std::string::npos);
+  EXPECT_FALSE(holds(page, name(1)));
   EXPECT_LT(first, page.find(name(2)));
 }
 
@@ -322,8 +324,7 @@ TEST_F(SampleSummaryOfAFile, CountsTheKindsOfWarnings) {
   EXPECT_EQ(kinds[1].at("grains"), 10);
   EXPECT_EQ(kinds[1].at("first"), "g20");
   // The grains themselves are collapsed.
-  EXPECT_NE(page.find("<details><summary>29 grains, each with its warnings</summary>"),
-            std::string::npos);
+  EXPECT_TRUE(holds(page, "<details><summary>29 grains, each with its warnings</summary>"));
   EXPECT_EQ(test::table_named(page, "grain").size(), 30U);
 }
 
@@ -338,8 +339,8 @@ TEST_F(SampleSummaryOfAFile, RoundingHasNoHistogram) {
   }
   write(table);
   const std::string page = page_of(summarise_table(path_));
-  EXPECT_EQ(page.find("Error of the volume"), std::string::npos);
-  EXPECT_NE(page.find("Equivalent radius of 3 grains"), std::string::npos);
+  EXPECT_FALSE(holds(page, "Error of the volume"));
+  EXPECT_TRUE(holds(page, "Equivalent radius of 3 grains"));
 }
 
 TEST_F(SampleSummaryOfAFile, RefusesWhatIsNoTableOfASample) {
@@ -365,9 +366,8 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
   write(table);
   const SampleSummary summary = summarise_table(path_);
   const std::string page = page_of(summary);
-  EXPECT_NE(page.find("<h1>A sample of 14 grains</h1>"), std::string::npos);
-  EXPECT_NE(page.find("<p>14 grains: 13 remeshed, 0 of them with warnings, 1 failed.</p>"),
-            std::string::npos);
+  EXPECT_TRUE(holds(page, "<h1>A sample of 14 grains</h1>"));
+  EXPECT_TRUE(holds(page, "<p>14 grains: 13 remeshed, 0 of them with warnings, 1 failed.</p>"));
   EXPECT_EQ(test::table_named(page, "grain"),
             (test::Rows{{"grain", "error"}, {"bad <one>", "Broken & gone."}}));
   const test::Rows rows = test::table_named(page, "Quantity");
@@ -386,9 +386,8 @@ TEST_F(SampleSummaryOfAFile, EveryNumberOfThePageIsThatOfItsDefinition) {
   };
   expect(1, "equivalent radius, length", radii);
   expect(2, "volume, length^3", 3.0 * radii);
-  EXPECT_NE(page.find(" of 13 grains, half of them below " +
-                      format_number(test::PlainStatistics(radii).quantile(0.5), 4) + "."),
-            std::string::npos);
+  EXPECT_TRUE(holds(page, " of 13 grains, half of them below " +
+                              format_number(test::PlainStatistics(radii).quantile(0.5), 4) + "."));
   const auto json = nlohmann::ordered_json::parse(summary_json(summary));
   EXPECT_EQ(json.at("grains"), 14);
   EXPECT_EQ(json.at("remeshed"), 13);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 
 namespace wscvt {
 namespace {
@@ -60,7 +61,7 @@ TEST(GivenSizes, AreReadFromATable) {
   std::ofstream(path) << "0.5,0\n1,x\n2,100\n";
   const std::string sentence =
       test::refusal(ErrorCode::InvalidInput, [&] { read_given_sizes(path); });
-  EXPECT_NE(sentence.find("Line 2"), std::string::npos) << sentence;
+  EXPECT_TRUE(test::holds(sentence, "Line 2"));
   EXPECT_ERROR(read_given_sizes(path + ".none"), InputOutput);
   std::remove(path.c_str());
 }
@@ -87,7 +88,7 @@ TEST(GivenSizes, UnderstandOrRefuseHeadingsAndUnits) {
     std::ofstream(path) << text;
     const std::string sentence =
         test::refusal(ErrorCode::InvalidInput, [&] { read_given_sizes(path); });
-    EXPECT_NE(sentence.find(word), std::string::npos) << text << sentence;
+    EXPECT_TRUE(test::holds(sentence, word)) << text;
   }
   std::remove(path.c_str());
 }

@@ -8,11 +8,14 @@
 #include <map>
 #include <string>
 
+#include "support/holds.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class GrainTableTest : public ::testing::Test {
  protected:
@@ -149,35 +152,32 @@ TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {
          {std::string("a,") + field + "\nb,2\n", std::string("b,2\na,") + field + "\n"}) {
       if (rows.find("000,5") != std::string::npos) continue;  // needs another separator
       const std::string sentence = refusal("grain,volume [mm^3]\n" + rows);
-      EXPECT_NE(sentence.find(rows[0] == 'a' ? "line 2" : "line 3"), std::string::npos) << sentence;
-      EXPECT_NE(sentence.find("volume"), std::string::npos) << sentence;
+      EXPECT_TRUE(holds(sentence, rows[0] == 'a' ? "line 2" : "line 3"));
+      EXPECT_TRUE(holds(sentence, "volume"));
     }
   }
   for (const char* rows :
        {"a;1.000,5\nb;2,5\n", "a;1.000\nb;2,5\n", "b;2,5\na;1.234.567\n", "b;2,5\na;1 000,5\n"}) {
-    EXPECT_NE(refusal(std::string("grain;volume\n") + rows).find("thousands"), std::string::npos)
-        << rows;
+    EXPECT_TRUE(holds(refusal(std::string("grain;volume\n") + rows), "thousands")) << rows;
   }
   // Followed, it works; points alone are decimal points.
   EXPECT_EQ(read("grain,volume\na,1000.5\nb,2\n").values(0, 0), 1000.5);
   EXPECT_EQ(read("grain;volume\na;1.234\nb;2.5\n").values(0, 0), 1.234);
   EXPECT_EQ(read("grain;volume\na;1,234\nb;2,5\n").values(0, 0), 1.234);
   // Points at thousands only, beside whole numbers: 456 is not 456 times 1.660.
-  EXPECT_NE(refusal("grain;volume\na;1.660\nb;456\n").find("line 2: \"1.660\" may have a point"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(refusal("grain;volume\na;1.660\nb;456\n"), "line 2: \"1.660\" may have a point"));
   EXPECT_EQ(read("grain,volume\na,1.660\nb,456\n").values(0, 0), 1.66);
   EXPECT_EQ(read("grain;volume\na;1.660\nb;456\nc;0.250\n").values(0, 0), 1.66);
 }
 
 TEST_F(GrainTableTest, LeavesOutNoColumnOfADescriptorInSilence) {
   const std::string sentence = refusal("grain,volume,sphericity_wadell\na,1,80.2%\n");
-  EXPECT_NE(sentence.find("line 2: the column \"sphericity_wadell\" has \"80.2%\". Write fractions "
-                          "of 1"),
-            std::string::npos)
-      << sentence;
-  EXPECT_NE(refusal("grain,volume\na,12 mm\n").find("\"volume [mm]\""), std::string::npos);
-  EXPECT_NE(refusal("grain,volume,sphericity_wadell\na,1,1.7\n").find("at most 1"),
-            std::string::npos);
+  EXPECT_TRUE(holds(sentence,
+                    "line 2: the column \"sphericity_wadell\" has \"80.2%\". Write fractions "
+                    "of 1"));
+  EXPECT_TRUE(holds(refusal("grain,volume\na,12 mm\n"), "\"volume [mm]\""));
+  EXPECT_TRUE(holds(refusal("grain,volume,sphericity_wadell\na,1,1.7\n"), "at most 1"));
 }
 
 TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
@@ -189,23 +189,23 @@ TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
   EXPECT_EQ(heading_of(table.columns[table.index_of("volume")]), "volume [mm^3]");
   EXPECT_EQ(heading_of(table.columns[table.index_of("area")]), "area [mm^2]");
   EXPECT_EQ(table.values(1, static_cast<Eigen::Index>(table.index_of("equivalent_diameter"))), 1.2);
-  EXPECT_NE(refusal("\xFF\xFEg\n").find("UTF-16"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("\xFF\xFEg\n"), "UTF-16"));
 }
 
 TEST_F(GrainTableTest, KnowsWhatProgramsOnWindowsAndMacsWrite) {
   // Latin-1; as UTF-8 it is the same.
   const GrainTable latin = read("label,volume (\xB5m\xB3)\na,8\nb,1\n");
   EXPECT_EQ(heading_of(latin.columns[latin.index_of("volume")]), "volume [um^3]");
-  EXPECT_NE(refusal("label,volume\ra,8\rb,1\r").find("end by CR"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("label,volume\ra,8\rb,1\r"), "end by CR"));
   const std::string error = refusal("label,volume\na,#DIV/0!\nb,1\n");
-  EXPECT_NE(error.find("line 2"), std::string::npos) << error;
-  EXPECT_NE(error.find("an error of a spreadsheet"), std::string::npos) << error;
+  EXPECT_TRUE(holds(error, "line 2"));
+  EXPECT_TRUE(holds(error, "an error of a spreadsheet"));
 }
 
 // By the isoperimetric inequality; 4.84 for a volume of 1.
 TEST_F(GrainTableTest, RefusesLessAreaThanABallHas) {
   const std::string sentence = refusal("grain,volume,area\na,8,24\nb,1,2\n");
-  EXPECT_NE(sentence.find("line 3: the area 2 is less than 4.836"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "line 3: the area 2 is less than 4.836"));
   EXPECT_EQ(read("grain,volume,area\na,8,24\nb,1,4.6\nc,1,\nd,,1\n").grains.size(), 4U);
   // In other units it may be so.
   EXPECT_EQ(read("grain,volume [um^3],area [mm^2]\na,8e9,24\n").grains.size(), 1U);
@@ -235,8 +235,8 @@ TEST_F(GrainTableTest, RefusesValuesThatNoGrainHas) {
                           "3,-1,0.9", "3,1,1.2", "3,1,-0.1", "3,-inf,0.9"}) {
     const std::string sentence =
         refusal(std::string("grain,volume,axis_i_box,sphericity\na,1,1,0.9\nb,") + row + "\n");
-    EXPECT_NE(sentence.find("line 3"), std::string::npos) << row << ": " << sentence;
-    EXPECT_NE(sentence.find("the column"), std::string::npos) << sentence;
+    EXPECT_TRUE(holds(sentence, "line 3")) << row;
+    EXPECT_TRUE(holds(sentence, "the column"));
   }
   // Other columns may be negative, and fields may be empty.
   EXPECT_EQ(read("grain,volume,curl\na,1,-2\nb,,3\n").values(0, 1), -2.0);
@@ -248,11 +248,11 @@ TEST_F(GrainTableTest, RefusesRowsThatSumUpOthers) {
     for (const std::string& row :
          {std::string(word) + ",,3\n", "3," + std::string(word) + ",3\n"}) {
       const std::string sentence = refusal("id,label,volume\n1,a,1\n2,b,2\n" + row);
-      EXPECT_NE(sentence.find("line 4: the row has"), std::string::npos) << row << sentence;
+      EXPECT_TRUE(holds(sentence, "line 4: the row has")) << row;
     }
   }
   EXPECT_EQ(read("id,label,volume\nMaximus,total sand,1\nb,x,2\n").grains.size(), 2U);
-  EXPECT_NE(refusal("# made by\nid,volume\n1,2\n").find("delete the comments"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("# made by\nid,volume\n1,2\n"), "delete the comments"));
 }
 
 TEST_F(GrainTableTest, ReadsWhatSpreadsheetsWrite) {
@@ -287,23 +287,20 @@ TEST_F(GrainTableTest, LeavesFailedRowsOut) {
 TEST_F(GrainTableTest, ErrorsNameFileLineAndColumn) {
   // The second record has two lines.
   const std::string rows = "grain,v,w\n\"a\nb\",1,2\n";
-  EXPECT_NE(refusal(rows + "c,x,2\n").find(path_ + "\", line 4: the column \"v\" has \"x\""),
-            std::string::npos);
-  EXPECT_NE(refusal(rows + "c,1\n").find("line 4: the row has 2 fields"), std::string::npos);
-  EXPECT_NE(refusal(rows + "c,\"1,2\n").find("line 4: the file ends within"), std::string::npos);
-  EXPECT_NE(refusal("grain,status,v\na,done,1").find("line 2: the file ends within"),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal(rows + "c,x,2\n"), path_ + "\", line 4: the column \"v\" has \"x\""));
+  EXPECT_TRUE(holds(refusal(rows + "c,1\n"), "line 4: the row has 2 fields"));
+  EXPECT_TRUE(holds(refusal(rows + "c,\"1,2\n"), "line 4: the file ends within"));
+  EXPECT_TRUE(holds(refusal("grain,status,v\na,done,1"), "line 2: the file ends within"));
   for (const char* table : {"0,0,0,1\n.5,0,0,1\n", "12\n13\n", "1;2.5\n", "1,nan\n"}) {
-    EXPECT_NE(refusal(table).find("line 1: the first line has numbers"), std::string::npos)
-        << table;
+    EXPECT_TRUE(holds(refusal(table), "line 1: the first line has numbers")) << table;
   }
-  EXPECT_NE(refusal("a,b,a [mm]\n").find("line 1: two columns are named \"a\""), std::string::npos);
-  EXPECT_NE(refusal("a|b\n1|2\n").find("by commas"), std::string::npos);
-  EXPECT_NE(refusal("grain,v\n").find("no row"), std::string::npos);
-  EXPECT_NE(refusal("grain,v\na,b\n").find("no column"), std::string::npos);
-  EXPECT_NE(refusal("").find("no table"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("a,b,a [mm]\n"), "line 1: two columns are named \"a\""));
+  EXPECT_TRUE(holds(refusal("a|b\n1|2\n"), "by commas"));
+  EXPECT_TRUE(holds(refusal("grain,v\n"), "no row"));
+  EXPECT_TRUE(holds(refusal("grain,v\na,b\n"), "no column"));
+  EXPECT_TRUE(holds(refusal(""), "no table"));
   // A number that is only begun is none, "1.2.3" and "12 mm" among them.
-  EXPECT_NE(refusal("grain,v\na,1\nb,1.2.3\n").find("line 3"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("grain,v\na,1\nb,1.2.3\n"), "line 3"));
   try {
     read_grain_table(::testing::TempDir() + "/no/such/table.csv");
     FAIL();
@@ -320,7 +317,7 @@ TEST_F(GrainTableTest, FindsColumnsAndNamesThoseThereAre) {
     table.index_of("x");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("v, w."), std::string::npos);
+    EXPECT_TRUE(holds(error.what(), "v, w."));
   }
 }
 
@@ -341,20 +338,18 @@ TEST_F(GrainTableTest, UnderstandsUnitsAndTheLineOfSeparators) {
   EXPECT_EQ(heading_of(atlas.columns.at(0)), "volume [um^3]");
   EXPECT_EQ(read("grain,volume,unit\na,1,mm\nb,2,mm\n").grains.size(), 2U) << "no row of units";
   EXPECT_EQ(read("grain,volume,step\na,1,mm\nb,2,mm\n").grains.size(), 2U);
-  EXPECT_NE(refusal("grain,volume\na,1 mm3\n").find("heading: \"volume [mm3]\""),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal("grain,volume\na,1 mm3\n"), "heading: \"volume [mm3]\""));
   EXPECT_EQ(read("grain,volume,unit\na,1.5,mm\nb,2,mm\nc,2,\n").grains.size(), 3U);
   const std::string two = refusal("grain,volume,unit\na,1.5,mm\nb,200,\xC2\xB5m\n");
-  EXPECT_NE(two.find("line 3"), std::string::npos) << two;
-  EXPECT_NE(two.find("in um, but the rows above it are in mm"), std::string::npos) << two;
-  EXPECT_NE(refusal("sep=,\ngrain,volume\na,-1\n").find("line 3"), std::string::npos);
-  EXPECT_NE(refusal("grain,mass,volume\na,1,1\nb,-2,2\n").find("line 3"), std::string::npos);
+  EXPECT_TRUE(holds(two, "line 3"));
+  EXPECT_TRUE(holds(two, "in um, but the rows above it are in mm"));
+  EXPECT_TRUE(holds(refusal("sep=,\ngrain,volume\na,-1\n"), "line 3"));
+  EXPECT_TRUE(holds(refusal("grain,mass,volume\na,1,1\nb,-2,2\n"), "line 3"));
 }
 
 TEST_F(GrainTableTest, RefusesGrainsThatCountTwice) {
   const std::string twice = refusal("grain,volume\na,1\nb,2\na ,1\n");
-  EXPECT_NE(twice.find("line 4: the grain \"a \" has a row in line 2 too"), std::string::npos)
-      << twice;
+  EXPECT_TRUE(holds(twice, "line 4: the grain \"a \" has a row in line 2 too"));
   EXPECT_EQ(read("class,volume\na,1\nb,2\na,1\n").grains.size(), 3U) << "no names of grains";
   EXPECT_EQ(read("grain,volume\n,1\n,2\n").grains.size(), 2U) << "without names";
   EXPECT_EQ(read("grain,volume,status\na,,failed\na,1,done\n").grains.size(), 1U);
@@ -363,13 +358,11 @@ TEST_F(GrainTableTest, RefusesGrainsThatCountTwice) {
 TEST_F(GrainTableTest, RefusesSectionsOfScikitImage) {
   const std::string head = "label,area,equivalent_diameter_area,solidity\n";
   const std::string disc = refusal(head + "4,1250,39.894,0.9\n");
-  EXPECT_NE(disc.find("line 2: the equivalent diameter 39.89 is that of a disc"), std::string::npos)
-      << disc;
+  EXPECT_TRUE(holds(disc, "line 2: the equivalent diameter 39.89 is that of a disc"));
   EXPECT_EQ(read(head + "4,1250,13.365,0.9\n").grains.size(), 1U);
-  EXPECT_NE(refusal("label,area,equivalent_diameter\n1,1250,39.894\n").find("of a disc"),
-            std::string::npos);
-  EXPECT_NE(refusal("label,area,equivalent_diameter\n1,1250,13.365\n").find("Rename the column"),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal("label,area,equivalent_diameter\n1,1250,39.894\n"), "of a disc"));
+  EXPECT_TRUE(
+      holds(refusal("label,area,equivalent_diameter\n1,1250,13.365\n"), "Rename the column"));
   EXPECT_EQ(read("grain,area,equivalent_diameter\n1,700,13.365\n").grains.size(), 1U);
 }
 

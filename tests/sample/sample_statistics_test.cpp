@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/plain_statistics.h"
 #include "toolbox/sample/distribution.h"
 #include "toolbox/sample/random_stream.h"
@@ -21,6 +22,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
@@ -65,7 +68,7 @@ TEST(GrainSample, LeavesOutGrainsWithoutAMass) {
     EXPECT_EQ(sample.masses.size(), 3);
     EXPECT_EQ(sample.masses.sum(), 1.0 + 27.0 + 64.0);
     ASSERT_EQ(sample.notes.size(), 1U);
-    EXPECT_NE(sample.notes[0].find("1 grain without a mass"), std::string::npos);
+    EXPECT_TRUE(holds(sample.notes[0], "1 grain without a mass"));
   }
 }
 
@@ -86,8 +89,8 @@ TEST(GrainSample, NotesWhatTheVoxelsDoNotResolve) {
   options.of = SampledMesh::Scan;
   const GrainSample sample = sample_of(table, options);
   ASSERT_EQ(sample.notes.size(), 1U);
-  EXPECT_NE(sample.notes[0].find("sq of all grains"), std::string::npos) << sample.notes[0];
-  EXPECT_NE(sample.notes[0].find("volume of 1 of 4 grains"), std::string::npos) << sample.notes[0];
+  EXPECT_TRUE(holds(sample.notes[0], "sq of all grains"));
+  EXPECT_TRUE(holds(sample.notes[0], "volume of 1 of 4 grains"));
 }
 
 TEST(GrainSample, TakesTheColumnsOfOneMesh) {
@@ -102,7 +105,7 @@ TEST(GrainSample, TakesTheColumnsOfOneMesh) {
   EXPECT_EQ(scans.sizes[1], 3.0);
   EXPECT_EQ(scans.masses[1], 7.0 * 27.0);
   ASSERT_EQ(scans.notes.size(), 1U);
-  EXPECT_NE(scans.notes[0].find("1 grain without a size"), std::string::npos);
+  EXPECT_TRUE(holds(scans.notes[0], "1 grain without a size"));
   options.of = SampledMesh::Remesh;
   const GrainSample remeshes = sample_with(sizes, options);
   ASSERT_EQ(remeshes.columns.size(), 1U);
@@ -122,7 +125,7 @@ TEST(GrainSample, TakesMassesOrDensitiesOfTheTable) {
   EXPECT_EQ(sample.masses, Eigen::Vector3d(7.0, 40.0, 54.0));
   EXPECT_TRUE(std::isnan(sample.density));
   ASSERT_EQ(sample.notes.size(), 1U);
-  EXPECT_NE(sample.notes[0].find("\"density\""), std::string::npos);
+  EXPECT_TRUE(holds(sample.notes[0], "\"density\""));
   table.columns[4].name = "mass";
   table.values.col(4) = Eigen::Vector3d(0.5, 0.25, 4.0);
   EXPECT_EQ(sample_of(table, {}).masses, Eigen::Vector3d(0.5, 0.25, 4.0));

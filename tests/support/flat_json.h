@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
+
 namespace wscvt::test {
 
 /// The records of a text after RFC 4180.
@@ -102,7 +104,7 @@ inline void expect_csv_is_flat_json(const std::string& csv, const std::string& j
       EXPECT_EQ(std::strtod(field.c_str(), nullptr), value.get<double>());
     } else {
       for (const auto& sentence : value) {
-        EXPECT_NE(field.find(sentence.get<std::string>()), std::string::npos);
+        EXPECT_TRUE(holds(field, sentence.get<std::string>()));
       }
     }
   }

@@ -9,6 +9,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "toolbox/volume/open_volume.h"
 
@@ -85,7 +86,7 @@ class VolumeFolder : public FileFolder {
     const std::string sentence = refusal(ErrorCode::InputOutput, [&] { labels_of(name, choice); });
     EXPECT_NE(sentence, "") << name << " was read.";
     for (const std::string& word : words) {
-      EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
+      EXPECT_TRUE(holds(sentence, word));
     }
   }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/random_harmonics.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
@@ -27,6 +28,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 TEST(HarmonicSurface, RefusesBadCoefficients) {
   EXPECT_THROW(HarmonicSurface({}), Error);
@@ -138,8 +141,8 @@ TEST_F(HarmonicIo, SomeNegativeOrdersMayBeLeftOutAndTheSeriesCut) {
 // of 0.81.
 TEST_F(HarmonicIo, RowsWithoutNegativeOrdersAreOfTwoConventionsAndRefused) {
   const std::string sentence = refusal("0 0 2 0\n1 0 0.3 0\n1 1 0.1 0.2\n", false);
-  EXPECT_NE(sentence.find("SHTOOLS"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find(".sh"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "SHTOOLS"));
+  EXPECT_TRUE(holds(sentence, ".sh"));
   // A comma is of SHTOOLS alone.
   EXPECT_NE(refusal("0, 0, 2, 0\n", false), "");
 }
@@ -181,26 +184,25 @@ TEST_F(HarmonicIo, RowsOfShtoolsGiveTheSumOfItsHarmonics) {
     write(text);
     const std::string sentence =
         test::refusal(ErrorCode::InvalidInput, [&] { read_shtools(path_); });
-    EXPECT_NE(sentence.find(word), std::string::npos) << sentence;
+    EXPECT_TRUE(holds(sentence, word));
   }
 }
 
 TEST_F(HarmonicIo, MalformedTextIsRefusedWithItsLine) {
-  EXPECT_NE(refusal("0 0 10 0\n1 0 x 0\n", false).find("line 2"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10\n", false).find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0 7\n", false).find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n\n1 2 0 0\n", false).find("line 3"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n-1 0 0 0\n", false).find("line 2"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n1 0 x 0\n", false), "line 2"));
+  EXPECT_TRUE(holds(refusal("0 0 10\n", false), "line 1"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0 7\n", false), "line 1"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n\n1 2 0 0\n", false), "line 3"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n-1 0 0 0\n", false), "line 2"));
   // The one number whose absolute value is none.
-  EXPECT_NE(refusal("5 -2147483648 0 0\n", false).find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("100000 0 10 0\n", false).find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n0 0 10 0\n", false).find("line 2"), std::string::npos);
-  EXPECT_NE(refusal("0 0 nan 0\n", false).find("line 1"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 1\n", false).find("complex"), std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n1 0 0 0\n1 1 1 2\n1 -1 1 2\n", false).find("line 4"),
-            std::string::npos);
-  EXPECT_NE(refusal("0 0 10 0\n1 1 0 0\n1 -1 0 0\n", false).find("missing"), std::string::npos);
-  EXPECT_NE(refusal("0 0 -10 0\n", false).find("positive"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("5 -2147483648 0 0\n", false), "line 1"));
+  EXPECT_TRUE(holds(refusal("100000 0 10 0\n", false), "line 1"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n0 0 10 0\n", false), "line 2"));
+  EXPECT_TRUE(holds(refusal("0 0 nan 0\n", false), "line 1"));
+  EXPECT_TRUE(holds(refusal("0 0 10 1\n", false), "complex"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n1 0 0 0\n1 1 1 2\n1 -1 1 2\n", false), "line 4"));
+  EXPECT_TRUE(holds(refusal("0 0 10 0\n1 1 0 0\n1 -1 0 0\n", false), "missing"));
+  EXPECT_TRUE(holds(refusal("0 0 -10 0\n", false), "positive"));
   EXPECT_NE(refusal("", false), "");
 }
 
@@ -215,10 +217,8 @@ TEST_F(HarmonicIo, JsonGivesTheSameBitsBack) {
 
 TEST_F(HarmonicIo, MalformedJsonIsRefused) {
   const std::string head = R"({"format": "wscvt-harmonics-1",)";
-  EXPECT_NE(refusal(head + "\n\"degree\": 0 \"coefficients\": [1]}", true).find("line 2"),
-            std::string::npos);
-  EXPECT_NE(refusal(R"({"degree": 0, "coefficients": [1]})", true).find("format"),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal(head + "\n\"degree\": 0 \"coefficients\": [1]}", true), "line 2"));
+  EXPECT_TRUE(holds(refusal(R"({"degree": 0, "coefficients": [1]})", true), "format"));
   EXPECT_NE(refusal(R"({"format": "other", "degree": 0, "coefficients": [1]})", true), "");
   EXPECT_NE(refusal(head + R"("degree": 1, "coefficients": [1, 0, 0]})", true), "");
   EXPECT_NE(refusal(head + R"("degree": -1, "coefficients": []})", true), "");

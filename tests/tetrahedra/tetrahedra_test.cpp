@@ -17,6 +17,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "toolbox/exchange/tetrahedra_files.h"
 #include "wscvt/base/numbers.h"
@@ -28,6 +29,8 @@
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 class Tetrahedra : public test::FileFolder {
  protected:
@@ -176,11 +179,11 @@ TEST_F(Tetrahedra, LineNamesTheBodyWithTheSmallestAngle) {
     const int flattest = dihedral_angles(mesh, 0)[0] < dihedral_angles(mesh, 1)[0] ? 0 : 1;
     EXPECT_EQ(flattest, is_first ? 0 : 1);
     const std::string name = flattest == 0 ? "(grain 3)" : "(grain 7)";
-    EXPECT_NE(tetrahedra_line(mesh).find(name), std::string::npos) << tetrahedra_line(mesh);
+    EXPECT_TRUE(holds(tetrahedra_line(mesh), name));
     const int below = static_cast<int>(dihedral_angles(mesh, 0)[0] < 12.0) +
                       static_cast<int>(dihedral_angles(mesh, 1)[0] < 12.0);
-    EXPECT_NE(tetrahedra_line(mesh).find("below 12 in " + std::to_string(below) + " of 2 grains"),
-              std::string::npos);
+    EXPECT_TRUE(
+        holds(tetrahedra_line(mesh), "below 12 in " + std::to_string(below) + " of 2 grains"));
   }
 }
 
@@ -267,20 +270,20 @@ TEST_F(Tetrahedra, OfSeveralBodiesShareTheirWall) {
   EXPECT_EQ(on_wall, 2U);
   EXPECT_EQ(mesh.surface.triangles.size(), 22U);
   for (const char* name : {"b.vtu", "b.msh", "b.inp"}) write_tetrahedra(path(name), mesh);
-  EXPECT_NE(content("b.vtu").find("Name=\"grain\""), std::string::npos);
+  EXPECT_TRUE(holds(content("b.vtu"), "Name=\"grain\""));
   const std::string msh = content("b.msh");
   for (const char* name : {"\"surface_3\"", "\"surface_7\"", "\"wall_3_7\"", "\"grain_7\""}) {
-    EXPECT_NE(msh.find(name), std::string::npos) << name;
+    EXPECT_TRUE(holds(msh, name));
   }
   const std::string inp = content("b.inp");
-  EXPECT_NE(inp.find("ELSET=grain_7"), std::string::npos);
-  EXPECT_NE(inp.find("*SURFACE, NAME=wall_3_7"), std::string::npos);
+  EXPECT_TRUE(holds(inp, "ELSET=grain_7"));
+  EXPECT_TRUE(holds(inp, "*SURFACE, NAME=wall_3_7"));
   IndexedMesh inward = bodies[1];
   for (Triangle& t : inward.triangles) std::swap(t[0], t[1]);
   const std::string said = test::refusal(ErrorCode::InvalidInput, [&] {
     tetrahedra_in({bodies[0], inward}, "grain", {"3", "7"}, 0.4, Execution(1));
   });
-  EXPECT_NE(said.find("The grain 7"), std::string::npos) << said;
+  EXPECT_TRUE(holds(said, "The grain 7"));
 }
 
 TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {
@@ -289,8 +292,7 @@ TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {
   ASSERT_GT(mesh.surface.points.size(), grain.points.size());
   for (const char* name : {"a.vtu", "a.msh", "a.inp"}) write_tetrahedra(path(name), mesh);
   const std::string vtu = content("a.vtu");
-  EXPECT_NE(vtu.find("NumberOfCells=\"" + std::to_string(mesh.tetrahedra.size()) + "\""),
-            std::string::npos);
+  EXPECT_TRUE(holds(vtu, "NumberOfCells=\"" + std::to_string(mesh.tetrahedra.size()) + "\""));
   const IndexedMesh read = read_mesh(path("a.msh"));
   EXPECT_EQ(read.triangles.size(), grain.triangles.size()) << "the surface of the tetrahedra";
   EXPECT_NEAR(volume_of(read, Execution(1)) / volume_of(grain, Execution(1)), 1.0, 1e-12);
@@ -299,9 +301,8 @@ TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {
   const std::string inp = content("a.inp");
   const std::size_t at = inp.find("*SURFACE, NAME=surface, TYPE=ELEMENT\n");
   ASSERT_NE(at, std::string::npos);
-  EXPECT_NE(inp.find("*ELEMENT, TYPE=C3D4, ELSET=grain\n1, "), std::string::npos);
-  EXPECT_NE(inp.find("GENERATE\n1, " + std::to_string(grain.points.size()) + "\n"),
-            std::string::npos);
+  EXPECT_TRUE(holds(inp, "*ELEMENT, TYPE=C3D4, ELSET=grain\n1, "));
+  EXPECT_TRUE(holds(inp, "GENERATE\n1, " + std::to_string(grain.points.size()) + "\n"));
   std::istringstream rows(inp.substr(inp.find('\n', at) + 1));
   // Nodes of the faces S1 to S4, from the manuals of Abaqus and CalculiX.
   const std::vector<std::vector<std::size_t>> corners = {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/volume_folder.h"
 
 namespace wscvt {
@@ -207,7 +208,7 @@ TEST_F(HeaderVolumes, KeepsTheNamesOfSlicersSegments) {
 TEST_F(HeaderVolumes, SaysOfASizeWhenItFitsNot) {
   const std::string bytes = made_.bytes<std::uint16_t>();
   expect_made_of("a.nrrd", nrrd("encoding: raw\n\n") + bytes + "\n");
-  EXPECT_NE(notes("a.nrrd").at(0).find("211 bytes"), std::string::npos);
+  EXPECT_TRUE(test::holds(notes("a.nrrd").at(0), "211 bytes"));
   // Twice as many: types of four bytes, another size.
   expect_refused_of("a.nrrd", nrrd("encoding: raw\n\n") + bytes + bytes, {"420 bytes", "210"});
   expect_refused_of(
@@ -256,7 +257,7 @@ TEST_F(HeaderVolumes, RefusesLengthsOfVoxelsThatAreNotAboveZero) {
     return open_volume(path("a.nrrd"), choice)->warnings();
   };
   ASSERT_EQ(warnings_with({}).size(), 1U);
-  EXPECT_NE(warnings_with({})[0].text().find("not perpendicular"), std::string::npos);
+  EXPECT_TRUE(test::holds(warnings_with({})[0].text(), "not perpendicular"));
   VolumeChoice advised;
   advised.voxel_size = Vector3(1, 1, 2);
   EXPECT_TRUE(warnings_with(advised).empty());
@@ -447,7 +448,7 @@ TEST_F(HeaderVolumes, DoubtsTheByteOrder) {
   };
   const auto refused_grey = [&](const std::string& name, const std::string& word) {
     const std::string told = test::refusal(ErrorCode::InputOutput, [&] { read_grey(name); });
-    EXPECT_NE(told.find(word), std::string::npos) << told;
+    EXPECT_TRUE(test::holds(told, word));
   };
   write("little.raw", made_.bytes<std::uint16_t>());
   const std::string raw = R"({"dimensions": [30, 28, 26], "file": "little.raw", "spacing": 1, )";

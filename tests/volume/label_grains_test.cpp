@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/made_volume.h"
 #include "support/seeds.h"
 #include "wscvt/base/error.h"
@@ -24,6 +25,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 using test::MadeVolume;
 
 class LabelGrainsOfAFile : public testing::Test {
@@ -58,8 +60,8 @@ TEST_F(LabelGrainsOfAFile, RefusesGreyValuesButNoSmallGrains) {
       options.parts = parts;
       const std::string sentence = test::refusal(
           ErrorCode::InvalidInput, [&] { LabelGrains(path_, options, Execution(1)); });
-      EXPECT_NE(sentence.find("look like grey values"), std::string::npos) << sentence;
-      EXPECT_NE(sentence.find("wscvt segment"), std::string::npos) << sentence;
+      EXPECT_TRUE(holds(sentence, "look like grey values"));
+      EXPECT_TRUE(holds(sentence, "wscvt segment"));
     }
     // Touching grains of 3 voxels, and plates of one.
     MadeVolume grains(counts);
@@ -113,8 +115,8 @@ TEST_F(LabelGrainsOfAFile, SortsLabelsOutAndReadsThemInTheOrderOfTheirLastSlices
   EXPECT_EQ(third.pieces, 2U);
   EXPECT_EQ(third.enclosed, 512);
   ASSERT_EQ(warnings_of(third).size(), 1U);
-  EXPECT_NE(warnings_of(third)[0].find("2 pieces"), std::string::npos);
-  EXPECT_NE(warnings_of(third)[0].find("11.1 %"), std::string::npos) << warnings_of(third)[0];
+  EXPECT_TRUE(holds(warnings_of(third)[0], "2 pieces"));
+  EXPECT_TRUE(holds(warnings_of(third)[0], "11.1 %"));
 
   options.at_border = true;
   options.smallest = 20;
@@ -162,16 +164,15 @@ TEST_F(LabelGrainsOfAFile, TakesTheBackgroundThatOtherProgramsWrite) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   write_as("int32", std::int32_t{-1}, std::int32_t{7});
   const std::string sentence = test::refusal(ErrorCode::InputOutput, labels);
-  EXPECT_NE(sentence.find("holds -1 at the voxel (0, 0, 0)"), std::string::npos) << sentence;
-  EXPECT_NE(sentence.find("--background -1."), std::string::npos) << "the way that follows";
-  EXPECT_EQ(sentence.find("segment"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "holds -1 at the voxel (0, 0, 0)"));
+  EXPECT_TRUE(holds(sentence, "--background -1.")) << "the way that follows";
+  EXPECT_FALSE(holds(sentence, "segment"));
   options.background = -1.0;
   EXPECT_EQ(labels(), both);
   write_as("float", -1.0F, 7.0F);
   EXPECT_EQ(labels(), both);
   options.background = 0.0;
-  EXPECT_NE(test::refusal(ErrorCode::InputOutput, labels).find("--background -1."),
-            std::string::npos);
+  EXPECT_TRUE(holds(test::refusal(ErrorCode::InputOutput, labels), "--background -1."));
   write_as("float", std::numeric_limits<float>::quiet_NaN(), 7.0F);
   EXPECT_EQ(labels(), (std::vector<Label>{7})) << "NaN as well as 0 is background";
   options.background = nan;
@@ -180,7 +181,7 @@ TEST_F(LabelGrainsOfAFile, TakesTheBackgroundThatOtherProgramsWrite) {
   EXPECT_EQ(labels(), (std::vector<Label>{1, 2}));
   options = {};
   write_as("double", 0.5, 7.0);
-  EXPECT_NE(test::refusal(ErrorCode::InputOutput, labels).find("wscvt segment"), std::string::npos);
+  EXPECT_TRUE(holds(test::refusal(ErrorCode::InputOutput, labels), "wscvt segment"));
 }
 
 TEST_F(LabelGrainsOfAFile, NumbersLargeLabelsAnewAndKeepsTheirNames) {
@@ -313,8 +314,7 @@ TEST_F(LabelGrainsOfAFile, RowsSayWhatBecameOfALabel) {
   EXPECT_EQ(row(0, {&crumbs, "", ""}).substr(row(0, {&crumbs, "", ""}).size() - 10),
             ",1,0,,,,\r\n");
   ASSERT_EQ(warnings_of(one).size(), 1U);
-  EXPECT_NE(warnings_of(one)[0].find("pores of 1 % of its volume"), std::string::npos)
-      << warnings_of(one)[0];
+  EXPECT_TRUE(holds(warnings_of(one)[0], "pores of 1 % of its volume"));
 }
 
 TEST_F(LabelGrainsOfAFile, AreTheSameOnSeveralThreadsAndWhenSomeAreLeftOut) {

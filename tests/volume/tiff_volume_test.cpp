@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/tiff_pages.h"
 #include "support/volume_folder.h"
 
@@ -18,6 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::channel;
 using test::frame;
+using test::holds;
 using test::MadeVolume;
 using test::TiffPages;
 
@@ -272,7 +274,7 @@ TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 1.0)).norm(), 1e-7);
   ASSERT_EQ(notes("a.tif").size(), 1U);
-  EXPECT_NE(notes("a.tif")[0].find("1 mm"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "1 mm"));
   // A distance of slices without a unit still says how long the voxels are.
   for (const char* unitless : {"spacing=3\n", "unit=pixel\nspacing=3\n"}) {
     stack.text = std::string("ImageJ=1.53\nimages=3\nslices=3\n") + unitless;
@@ -281,14 +283,14 @@ TEST_F(TiffVolume, TakesImageJsSizesAsImageJDoes) {
     EXPECT_EQ(geometry("a.tif").unit, "");
     EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.05, 0.1, 3.0)).norm(), 1e-7);
     ASSERT_EQ(notes("a.tif").size(), 1U);
-    EXPECT_NE(notes("a.tif")[0].find("the unit is unknown"), std::string::npos);
+    EXPECT_TRUE(holds(notes("a.tif")[0], "the unit is unknown"));
   }
   stack.text = "ImageJ=1.53\nimages=3\nslices=3\n";
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_FALSE(geometry("a.tif").has_size);
   EXPECT_EQ(geometry("a.tif").voxel_volume(), 1.0);
   ASSERT_EQ(notes("a.tif").size(), 1U);
-  EXPECT_NE(notes("a.tif")[0].find("No voxel size found: lengths in voxels"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "No voxel size found: lengths in voxels"));
 }
 
 TEST_F(TiffVolume, TakesAResolutionPerCmWhereImageJsUnitMakesVoxelsFlat) {
@@ -298,7 +300,7 @@ TEST_F(TiffVolume, TakesAResolutionPerCmWhereImageJsUnitMakesVoxelsFlat) {
   stack.resolution_unit = RESUNIT_CENTIMETER;
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.2, 0.4, 0.25)).norm(), 1e-7);
-  EXPECT_NE(notes("a.tif")[0].find("per cm"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "per cm"));
   stack.text = "ImageJ=1.53\nimages=3\nslices=3\nunit=um\n";  // 1 um along z
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.2, 0.4, 1.0)).norm(), 1e-7);
@@ -337,7 +339,7 @@ TEST_F(TiffVolume, TakesImageJsSizesOfSlicesInAFolder) {
   EXPECT_EQ(geometry("slices").unit, "mm");
   EXPECT_LT((geometry("slices").point({1, 1, 1}) - Vector3(0.05, 0.1, 0.05)).norm(), 1e-7);
   ASSERT_EQ(notes("slices").size(), 1U);
-  EXPECT_NE(notes("slices")[0].find("along z as along x"), std::string::npos);
+  EXPECT_TRUE(holds(notes("slices")[0], "along z as along x"));
   write_slices("ImageJ=1.53t\nunit=mm\nspacing=1.1\ncf=0\nc0=-32768\nc1=1\n", 32768);
   EXPECT_LT((geometry("slices").point({1, 1, 1}) - Vector3(0.05, 0.1, 1.1)).norm(), 1e-7);
   expect_made("slices");
@@ -350,7 +352,7 @@ TEST_F(TiffVolume, TakesImageJsSizesOfSlicesInAFolder) {
     if (std::string(other) == "unit=mm\n") slice.resolution = 30.0;
     write_tiff(path("slices/s1.tif"), slice, {page(1)});
     EXPECT_FALSE(geometry("slices").has_size) << other;
-    EXPECT_NE(notes("slices")[0].find("s1.tif\" says another size of voxels"), std::string::npos);
+    EXPECT_TRUE(holds(notes("slices")[0], "s1.tif\" says another size of voxels"));
   }
   slice.text = "ImageJ=1.53t\nunit=mm\ncf=0\nc0=-32768\nc1=1\n";
   write_tiff(path("slices/s2.tif"), slice, {page(2)});
@@ -397,7 +399,7 @@ TEST_F(TiffVolume, TakesAResolutionThatIsOfNoPrinter) {
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_EQ(geometry("a.tif").unit, "mm");
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(0.005, 0.01, 0.005)).norm(), 1e-9);
-  EXPECT_NE(notes("a.tif").at(0).find("resolution"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif").at(0), "resolution"));
   VolumeChoice choice;
   choice.voxel_size = Vector3(1, 2, 4);
   EXPECT_TRUE(open_volume(path("a.tif"), choice)->notes().empty());
@@ -516,7 +518,7 @@ TEST_F(TiffVolume, RefusesOmesTextThatFitsNoPages) {
   expect_made_of(stack, pages());
   EXPECT_EQ(geometry("a.tif").unit, "um");
   EXPECT_LT((geometry("a.tif").point({1, 1, 1}) - Vector3(2, 3, 2)).norm(), 1e-12);
-  EXPECT_NE(notes("a.tif").at(0).find("PhysicalSizeZ"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif").at(0), "PhysicalSizeZ"));
 }
 
 TEST_F(TiffVolume, ReadsTheOnlyVolumeOfOmesImages) {
@@ -529,7 +531,7 @@ TEST_F(TiffVolume, ReadsTheOnlyVolumeOfOmesImages) {
   };
   stack.text = text("1");
   expect_made_of(stack, {page(2), page(0), page(1), page(2), page(1)});
-  EXPECT_NE(notes("a.tif")[0].find("Left out: the images of one slice"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "Left out: the images of one slice"));
   stack.text = text("2");
   expect_refused_of(stack, pages(),
                     {"3 images", "\"sand\" of 3 slices", "\"macro\" of 2 slices", "series=0"});
@@ -744,21 +746,17 @@ TEST_F(TiffVolume, LeavesForeignFilesOutOfAFolderAndNamesTheOddSlice) {
   write("slices/.DS_Store", "x");
   EXPECT_TRUE(is_volume(path("slices")));
   expect_made("slices");
-  EXPECT_NE(notes("slices").at(0).find("\"._s9.tif\""), std::string::npos) << notes("slices")[0];
-  EXPECT_NE(notes("slices").at(0).find("\"Thumbs.db\""), std::string::npos);
+  EXPECT_TRUE(holds(notes("slices").at(0), "\"._s9.tif\""));
+  EXPECT_TRUE(holds(notes("slices").at(0), "\"Thumbs.db\""));
   write("slices/remarks.txt", "x");
-  EXPECT_NE(notes("slices").at(0).find("and 1 more"), std::string::npos) << notes("slices")[0];
+  EXPECT_TRUE(holds(notes("slices").at(0), "and 1 more"));
   expect_refused("slices", {"1 channel, not a channel 2"}, channel(2));
 
   fs::rename(path("slices/s10.tif"), path("slices/s11.tif"));
   expect_made("slices");
-  EXPECT_NE(notes("slices").back().find("voxel size"), std::string::npos);
-  EXPECT_NE(open_volume(path("slices"))
-                ->warnings()
-                .at(0)
-                .text()
-                .find("between \"s9.tif\" and \"s11.tif\""),
-            std::string::npos);
+  EXPECT_TRUE(holds(notes("slices").back(), "voxel size"));
+  EXPECT_TRUE(holds(open_volume(path("slices"))->warnings().at(0).text(),
+                    "between \"s9.tif\" and \"s11.tif\""));
 
   TiffPages odd = as();
   odd.height = 4;
@@ -820,14 +818,14 @@ TEST_F(TiffVolume, AppliesTheShiftThatImageJNotes) {
   TiffPages stack = as();
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=-32768.0\nc1=1.0\n";
   expect_made_of(stack, pages(32768));
-  EXPECT_NE(notes("a.tif")[0].find("-32768"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "-32768"));
   const std::unique_ptr<LabelVolume> grey = open_volume(path("a.tif"));
   grey->read_grey_values();
   EXPECT_EQ(grey_value(grey->next_row()[3]), static_cast<float>(made_.labels[3]));
   // A calibration that is no shift is told, and left.
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=3\nc1=0.5\n";
   expect_made_of(stack, pages());
-  EXPECT_NE(notes("a.tif")[0].find("calibration"), std::string::npos);
+  EXPECT_TRUE(holds(notes("a.tif")[0], "calibration"));
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=0\nc1=1\n";
   write_tiff(path("a.tif"), stack, pages());
   EXPECT_EQ(notes("a.tif").size(), 1U);
@@ -888,7 +886,7 @@ TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
     stack.text = "ImageJ=1.53\nimages=3\nslices=3\nspacing=1\nunit=" + unit + "\n";
     write_tiff(path("a.tif"), stack, pages());
     EXPECT_FALSE(geometry("a.tif").has_size);
-    EXPECT_NE(notes("a.tif")[0].find("of a screen"), std::string::npos) << notes("a.tif")[0];
+    EXPECT_TRUE(holds(notes("a.tif")[0], "of a screen"));
   }
   // Other voxels that are longer than five to one are taken, with a warning.
   TiffPages stack = as();
@@ -897,8 +895,7 @@ TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
   write_tiff(path("a.tif"), stack, pages());
   const std::unique_ptr<LabelVolume> volume = open_volume(path("a.tif"));
   ASSERT_EQ(volume->warnings().size(), 1U);
-  EXPECT_NE(volume->warnings()[0].text().find("12 times"), std::string::npos)
-      << volume->warnings()[0].text();
+  EXPECT_TRUE(holds(volume->warnings()[0].text(), "12 times"));
   EXPECT_EQ(volume->description(), "7 x 5 x 3 voxels of 0.1 x 0.2 x 1.2 um, from ImageJ's text.");
 }
 
@@ -915,7 +912,7 @@ TEST_F(TiffVolume, NamesTwoSeriesInAFolderAndLeavesAPreviewOut) {
     const std::string name = "slices/" + std::string(odd) + ".tif";
     write_tiff(path(name), as(), {page(1)});
     expect_made("slices");
-    EXPECT_NE(notes("slices")[0].find(odd), std::string::npos) << notes("slices")[0];
+    EXPECT_TRUE(holds(notes("slices")[0], odd));
     fs::remove(path(name));
   }
   for (const auto& [before, behind] : std::vector<std::pair<std::string, std::string>>{
@@ -999,7 +996,7 @@ TEST_F(TiffVolume, ReadsSlicesOfHexadecimalNumbers) {
   for (const int width : {2, 1}) {
     for (int z = 0; z < 21; ++z) write_tiff(name(z, width), as(), {page(z)});
     expect_made("slices");
-    EXPECT_NE(notes("slices")[0].find("hexadecimal"), std::string::npos);
+    EXPECT_TRUE(holds(notes("slices")[0], "hexadecimal"));
     EXPECT_EQ(open_volume(path("slices"))->warnings().size(), 0U);
     fs::remove(name(4, width));  // b
     EXPECT_EQ(open_volume(path("slices"))->warnings().size(), 1U);
@@ -1012,7 +1009,7 @@ TEST_F(TiffVolume, ReadsSlicesOfHexadecimalNumbers) {
   }
   write_tiff(path("slices/rec10a.tif"), as(), {page(3)});
   expect_made("slices");
-  EXPECT_NE(notes("slices")[0].find("rec10a"), std::string::npos) << notes("slices")[0];
+  EXPECT_TRUE(holds(notes("slices")[0], "rec10a"));
 }
 
 // Capitals do not count, and what the sentences advise works.
@@ -1048,14 +1045,12 @@ TEST_F(TiffVolume, WarnsOfAMissingSliceAndTellsAVolumeInTwoParts) {
   fs::remove(file("rec", 3));
   const auto volume = open_volume(path("slices"));
   ASSERT_EQ(volume->warnings().size(), 1U);
-  EXPECT_NE(volume->warnings()[0].text().find("between \"rec14.tif\" and \"rec18.tif\""),
-            std::string::npos);
+  EXPECT_TRUE(holds(volume->warnings()[0].text(), "between \"rec14.tif\" and \"rec18.tif\""));
   for (int z = 4; z < 8; ++z) fs::rename(file("rec", z), file("upper", z));
   expect_refused("slices", {"more than one series", "No number is in both"});
   write_tiff(file("upper", 2), as(), {page(2)});
-  EXPECT_EQ(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("slices")); })
-                .find("No number is in both"),
-            std::string::npos);
+  EXPECT_FALSE(holds(test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("slices")); }),
+                     "No number is in both"));
 }
 
 TEST_F(TiffVolume, RefusesTifffilesAxesWithXBeforeY) {
