@@ -13,12 +13,15 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/page_tables.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/numbers.h"
 
 namespace wscvt {
 namespace {
+
+using test::holds;
 
 /// A clump whose grain is no sphere, turned and off the origin.
 const ClumpResult& made_clump() {
@@ -33,17 +36,11 @@ const ClumpResult& made_clump() {
   return clump;
 }
 
-std::string content_of(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 class ClumpFiles : public test::FileFolder {
  protected:
   std::string written(const std::string& name, const FrameOptions& frame = {}) const {
     write_clump(path(name), made_clump(), frame);
-    return content_of(path(name));
+    return content(name);
   }
 };
 
@@ -91,34 +88,34 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_EQ(chrono.substr(0, 8), "x,y,z,r\n");
   const std::vector<Sphere> read = read_clump(path("clump.chrono.csv"));
   EXPECT_LT((read[2].centre - centre).norm(), 1e-12);
-  EXPECT_NE(chrono.find("# volume = "), std::string::npos);
+  EXPECT_TRUE(holds(chrono, "# volume = "));
   EXPECT_EQ(test::count_of(chrono.substr(8, chrono.find('\n', 8) - 8), ","), 3U);
 
   const std::vector<double> liggghts = numbers_of(written("clump.multisphere"));
   ASSERT_EQ(liggghts.size(), 12U);
   EXPECT_NEAR(liggghts[8], centre.x(), 1e-12);
   EXPECT_EQ(liggghts[11], last.radius);
-  const std::string fix = content_of(path("clump.multisphere.in"));
-  EXPECT_NE(fix.find("nspheres 3 "), std::string::npos) << fix;
-  EXPECT_NE(fix.find("file \"clump.multisphere\" "), std::string::npos) << fix;
-  EXPECT_NE(fix.find("fix clump_clump all"), std::string::npos) << fix;
+  const std::string fix = content("clump.multisphere.in");
+  EXPECT_TRUE(holds(fix, "nspheres 3 "));
+  EXPECT_TRUE(holds(fix, "file \"clump.multisphere\" "));
+  EXPECT_TRUE(holds(fix, "fix clump_clump all"));
   const double volume = mass_properties(made_clump().scan).volume;
   const std::pair<const char*, double> variables[] = {
       {"mass", volume}, {"xx", moments[0]}, {"yy", moments[1]}, {"zz", moments[2]}};
   for (const auto& [name, value] : variables) {
     const std::string begin = std::string("variable clump_") + name + " equal ${density}*";
-    ASSERT_NE(fix.find(begin), std::string::npos) << fix;
+    ASSERT_TRUE(holds(fix, begin));
     EXPECT_EQ(std::stod(fix.substr(fix.find(begin) + begin.size())), value) << name;
   }
 
-  written("clump.mclump");
-  const std::vector<double> mercury = numbers_of(content_of(path("clump.mclump/Clump/Clump.txt")));
+  write_clump(path("clump.mclump"), made_clump(), {});
+  const std::vector<double> mercury = numbers_of(content("clump.mclump/Clump/Clump.txt"));
   ASSERT_EQ(mercury.size(), 12U);
   EXPECT_NEAR(mercury[9], centre.y(), 1e-12);
-  const std::vector<double> tensor = numbers_of(content_of(path("clump.mclump/Inertia/TOI.txt")));
+  const std::vector<double> tensor = numbers_of(content("clump.mclump/Inertia/TOI.txt"));
   ASSERT_EQ(tensor.size(), 9U);
   EXPECT_EQ(tensor[8], moments[2]);
-  EXPECT_EQ(numbers_of(content_of(path("clump.mclump/Inertia/PD.txt"))),
+  EXPECT_EQ(numbers_of(content("clump.mclump/Inertia/PD.txt")),
             (std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
 
   const std::string pfc = written("clump.p3dat");
@@ -128,7 +125,7 @@ TEST_F(ClumpFiles, EnginesGetPrincipalAxesAndTheGrainsMoments) {
   EXPECT_EQ(numbers_of(pfc.substr(pebbles + 14, 40)).front(), made_clump().spheres[0].radius);
 
   const std::string yade = written("clump.py");
-  EXPECT_NE(yade.find("clumpTemplate(relRadii"), std::string::npos);
+  EXPECT_TRUE(holds(yade, "clumpTemplate(relRadii"));
 }
 
 /// The rows of a section of a LAMMPS molecule: number, then values.
@@ -153,7 +150,7 @@ TEST_F(ClumpFiles, MoleculeHasMassAndMomentsOfTheTurnedBox) {
   frame.scale = 2.0;
   const double density = 2650.0;
   write_clump(path("box.molecule"), clump, frame, density);
-  const std::string text = content_of(path("box.molecule"));
+  const std::string text = content("box.molecule");
 
   const double mass = density * 8.0 * edges.prod();
   const Vector3 squares = 4.0 * edges.array().square();
@@ -209,12 +206,12 @@ TEST_F(ClumpFiles, MoleculeHasMassAndMomentsOfTheTurnedBox) {
 TEST_F(ClumpFiles, TemplatesOfLiggghtsDifferByTheirNames) {
   const auto words = [&](const std::string& name) {
     written(name + ".multisphere");
-    const std::string fix = content_of(path(name + ".multisphere.in"));
+    const std::string fix = content(name + ".multisphere.in");
     std::istringstream stream(fix.substr(fix.find("\nfix ")));
     std::string word, id, seed;
     stream >> word >> id >> word >> word >> seed;
-    EXPECT_NE(fix.find(" type ${clump_type} "), std::string::npos) << fix;
-    EXPECT_NE(fix.find("\nvariable clump_type equal ${clump_type}+1\n"), std::string::npos) << fix;
+    EXPECT_TRUE(holds(fix, " type ${clump_type} "));
+    EXPECT_TRUE(holds(fix, "\nvariable clump_type equal ${clump_type}+1\n"));
     return std::make_pair(id, std::stoi(seed));
   };
   const auto [first, first_seed] = words("a grain-1");
@@ -257,25 +254,24 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
     const std::string units = test::refusal(ErrorCode::InvalidInput, [&] {
       read_clump(file("units.csv", std::string(heading) + "\n0,0,0.5,1\n"));
     });
-    EXPECT_NE(units.find("columns in mm and in "), std::string::npos) << units;
+    EXPECT_TRUE(holds(units, "columns in mm and in "));
   }
   const std::string sentence = test::refusal(
       ErrorCode::InvalidInput, [&] { read_clump(file("other.csv", "a,b,c,d\n1,2,3,4\n")); });
-  EXPECT_NE(sentence.find("x, y, z and r"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "x, y, z and r"));
   EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
   // No mesh ends in .txt, so that the table is what is told to be wrong.
   const std::string five = file("five.txt", "0 0 0 1 7\n");
   EXPECT_TRUE(is_clump_file(five));
-  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { read_clump(five); })
-                .find("not a table of spheres"),
-            std::string::npos);
+  EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { read_clump(five); }),
+                    "not a table of spheres"));
   EXPECT_FALSE(is_clump_file(file("red.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n")));
   EXPECT_TRUE(has_sphere_heading(file("named.txt", "# clump\nx y z r\n0 0 0 1\n")));
   EXPECT_FALSE(has_sphere_heading(file("grey.txt", "0 0 0 1\n")));
   const std::string line = test::refusal(ErrorCode::InvalidInput, [&] {
     read_clump(file("bad.csv", "# clump\nx,y,z,r\n0,0,0,1\n0,0,0,-1\n"));
   });
-  EXPECT_NE(line.find("Line 4"), std::string::npos) << line;
+  EXPECT_TRUE(holds(line, "Line 4"));
 }
 
 // The words are those of Kratos's public clusters; it reads numbers after them, line by line.
@@ -288,7 +284,7 @@ TEST_F(ClumpFiles, KratosHasTheGrainsVolumeAndInertiaPerUnitMass) {
     EXPECT_NE(begin, std::string::npos) << word;
     return numbers_of(text.substr(begin + word.size() + 1));
   };
-  EXPECT_NE(text.find("Name\nmy grain\n"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "Name\nmy grain\n"));
   const std::vector<double> spheres = after("Begin centers_and_radii");
   ASSERT_EQ(spheres.size(), 12U);
   const std::vector<double> volume = after("Volume");
@@ -323,7 +319,7 @@ TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {
   for (const char* row : {"1,2,3", "1,2,3,0", "1,2,3,-1", "1,2,nan,1", "1,2,3,4,5", "1,2,x,1"}) {
     const std::string name = file("bad.csv", std::string("x,y,z,r\n0,0,0,1\n") + row + "\n");
     const std::string sentence = test::refusal(ErrorCode::InvalidInput, [&] { read_clump(name); });
-    EXPECT_NE(sentence.find("Line 3"), std::string::npos) << row << ": " << sentence;
+    EXPECT_TRUE(holds(sentence, "Line 3")) << row;
   }
 }
 

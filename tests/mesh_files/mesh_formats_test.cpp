@@ -13,8 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "support/coded_bytes.h"
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/triangle_geometry.h"
@@ -25,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using boost::endian::order;
+using test::holds;
 
 class MeshFormats : public test::FileFolder {
  protected:
@@ -32,8 +35,8 @@ class MeshFormats : public test::FileFolder {
   void expect_refusal(const std::string& name, const std::string& text, const std::string& part) {
     const std::string where = file(name, text);
     const std::string sentence = test::refusal(ErrorCode::InputOutput, [&] { read_mesh(where); });
-    EXPECT_NE(sentence.find(where), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    EXPECT_TRUE(holds(sentence, where));
+    EXPECT_TRUE(holds(sentence, part));
   }
 };
 
@@ -226,7 +229,7 @@ TEST_F(MeshFormats, OfAbaqusRefuseNodesThatLieElsewhere) {
   const MeshFile turned = read_mesh_file(
       file("turned.inp", "*Node" + nodes + "*Transform, nset=a\n0,1,0,1,0,0\n" + faces));
   ASSERT_EQ(turned.warnings.size(), 1U);
-  EXPECT_NE(turned.warnings[0].find("*TRANSFORM"), std::string::npos);
+  EXPECT_TRUE(holds(turned.warnings[0], "*TRANSFORM"));
   EXPECT_EQ(turned.mesh.points.size(), 4U);
 }
 
@@ -298,7 +301,7 @@ TEST_F(MeshFormats, ThatWouldFillTheMemoryAreRefused) {
   ::gzclose(packed);
   const std::string sentence =
       test::refusal(ErrorCode::InputOutput, [&] { read_mesh(path("bomb.ply.gz")); });
-  EXPECT_NE(sentence.find("unpacks to more than"), std::string::npos) << sentence;
+  EXPECT_TRUE(holds(sentence, "unpacks to more than"));
   EXPECT_ERROR(read_mesh("/dev/zero"), InvalidInput);
 }
 
@@ -448,21 +451,6 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  "damaged");
 }
 
-std::string base64(const std::string& bytes) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    unsigned value = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      value = value << 8 | (k + i < bytes.size() ? static_cast<unsigned char>(bytes[k + i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      text += k + i > bytes.size() ? '=' : digits[value >> (18 - 6 * i) & 63U];
-    }
-  }
-  return text;
-}
-
 /// An array's bytes as VTK packs them, in blocks of 20: their lengths, and what follows.
 std::pair<std::string, std::string> packed(const std::string& bytes) {
   constexpr std::size_t block = 20;
@@ -505,7 +493,8 @@ TEST_F(MeshFormats, ReadsEveryFormOfVtp) {
             is_packed ? packed(bytes)
                       : std::pair(bytes_of(static_cast<std::uint32_t>(bytes.size())) + bytes,
                                   std::string());
-        const std::string stored = form == "raw" ? lengths + data : base64(lengths) + base64(data);
+        const std::string stored =
+            form == "raw" ? lengths + data : test::base64(lengths) + test::base64(data);
         std::string text = "<DataArray type=\"" + arrays[k].tag + "\" format=\"";
         if (form == "binary") {
           text += "binary\">\n  " + stored + "\n<InformationKey name=\"k\"/></DataArray>\n";
@@ -637,8 +626,7 @@ TEST_F(MeshFormats, ReadPointsOfTheirLibrary) {
     const MeshFile read = read_mesh_file(file("a.pcd", text));
     EXPECT_EQ(read.mesh.points, points);
     ASSERT_EQ(read.warnings.size(), 1U);
-    EXPECT_NE(read.warnings[0].find("has 1 of 3 points without finite coordinates"),
-              std::string::npos);
+    EXPECT_TRUE(holds(read.warnings[0], "has 1 of 3 points without finite coordinates"));
   };
   expect_points(header + "ascii\n9 1.5 -2 7 7 3\n9 nan nan 7 7 nan\n9 4 .5 7 7 -6\n");
   const float none = std::numeric_limits<float>::quiet_NaN();

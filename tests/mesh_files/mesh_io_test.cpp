@@ -15,6 +15,7 @@
 
 #include "support/expect_error.h"
 #include "support/file_folder.h"
+#include "support/holds.h"
 #include "support/read_content.h"
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
@@ -24,6 +25,7 @@ namespace wscvt {
 namespace {
 
 namespace fs = std::filesystem;
+using test::holds;
 
 class MeshIo : public test::FileFolder {
  protected:
@@ -75,12 +77,10 @@ TEST_F(MeshIo, ReadsFilesOfManyBuffersWhereverTheirLinesEnd) {
   // some line ends at each place about a buffer's end.
   const IndexedMesh mesh = test::lumpy(5);
   write_mesh(mesh, path("a.obj"));
-  std::ostringstream content;
-  content << std::ifstream(path("a.obj"), std::ios::binary).rdbuf();
-  ASSERT_GT(content.str().size(), std::size_t{2} << 18);
+  const std::string lines = content("a.obj");
+  ASSERT_GT(lines.size(), std::size_t{2} << 18);
   for (std::size_t more = 0; more < 70; ++more) {
-    const IndexedMesh back =
-        read_mesh(file("b.obj", "#" + std::string(more, 'x') + "\n" + content.str()));
+    const IndexedMesh back = read_mesh(file("b.obj", "#" + std::string(more, 'x') + "\n" + lines));
     ASSERT_EQ(back.points, mesh.points) << more;
     ASSERT_EQ(back.triangles, mesh.triangles) << more;
   }
@@ -153,7 +153,7 @@ TEST_F(MeshIo, RefusesStlThatWouldMergeVertices) {
     FAIL() << "vertices were merged in silence";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::InputOutput);
-    EXPECT_NE(std::string(error.what()).find("Write PLY"), std::string::npos) << error.what();
+    EXPECT_TRUE(holds(error.what(), "Write PLY"));
   }
   // The file there stays, and the advice works.
   EXPECT_EQ(read_mesh(path("a.stl")).triangles.size(), at(0.0).triangles.size());
@@ -169,8 +169,7 @@ TEST_F(MeshIo, RefusesStlWhoseStepsTurnFaces) {
     write_mesh(far, path("a.stl"));
     FAIL() << "the mesh was rounded in silence";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("of the mean edge. Write PLY"), std::string::npos)
-        << error.what();
+    EXPECT_TRUE(holds(error.what(), "of the mean edge. Write PLY"));
   }
   write_mesh(far, path("a.off"));
 }
@@ -256,11 +255,7 @@ TEST_F(MeshIo, ReadsTextStl) {
 // meshio 530, stl_reader 3: bytes behind the last triangle, and a cut, whatever the header says.
 TEST_F(MeshIo, ReadsBinaryStlWithATailAndSaysHowMuchOfACutOneIsThere) {
   write_mesh(test::box(1, 1, 1), path("a.stl"));
-  std::string bytes;
-  {
-    std::ifstream stream(path("a.stl"), std::ios::binary);
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  }
+  const std::string bytes = content("a.stl");
   for (const char* header : {"made", "solid exported by SolidWorks", "SOLID"}) {
     std::string named = bytes;
     named.replace(0, 80, std::string(header).append(80 - std::string(header).size(), ' '));
@@ -280,13 +275,10 @@ TEST_F(MeshIo, ReadsBinaryStlWithATailAndSaysHowMuchOfACutOneIsThere) {
     for (const std::size_t left : {named.size() - 1, named.size() - 50, named.size() - 251}) {
       std::ofstream(path("b.stl"), std::ios::binary) << named.substr(0, left);
       const std::string held = std::to_string((left - 84) / 50);
-      EXPECT_NE(refusal(path("b.stl")).find("announces 12 triangles, but holds " + held),
-                std::string::npos)
-          << refusal(path("b.stl"));
+      EXPECT_TRUE(holds(refusal(path("b.stl")), "announces 12 triangles, but holds " + held));
     }
     std::ofstream(path("b.stl"), std::ios::binary) << named << std::string(50, 'x');
-    EXPECT_NE(refusal(path("b.stl")).find("announces 12 triangles, but holds 13"),
-              std::string::npos);
+    EXPECT_TRUE(holds(refusal(path("b.stl")), "announces 12 triangles, but holds 13"));
   }
 }
 
@@ -334,10 +326,7 @@ TEST_F(MeshIo, ReadsFromAPipe) {
   const IndexedMesh mesh = test::lumpy(3);
   write_mesh(mesh, path("a.stl"));
   ASSERT_EQ(mkfifo(path("pipe.stl").c_str(), 0600), 0);
-  std::thread writer([&] {
-    std::ofstream(path("pipe.stl"), std::ios::binary)
-        << std::ifstream(path("a.stl"), std::ios::binary).rdbuf();
-  });
+  std::thread writer([&] { file("pipe.stl", content("a.stl")); });
   const IndexedMesh back = read_mesh(path("pipe.stl"));
   writer.join();
   EXPECT_EQ(back.points, read_mesh(path("a.stl")).points);
@@ -357,7 +346,7 @@ TEST_F(MeshIo, ReportsAndStopsWithinAFile) {
 }
 
 TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
-  EXPECT_NE(refusal(path("nothing.ply")).find("cannot be opened"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(path("nothing.ply")), "cannot be opened"));
   // Names of no format are wrong arguments.
   for (const char* name : {"a.step", "ply", ".ply"}) {
     SCOPED_TRACE(name);
@@ -367,15 +356,14 @@ TEST_F(MeshIo, SaysWhatIsWrongWithAFile) {
   EXPECT_NE(refusal(file("empty.ply", "")), "");
   EXPECT_NE(refusal(file("short.off", "OFF\n4 4 0\n0 0 0\n")), "");
   EXPECT_NE(refusal(file("words.obj", "v 0 zero 0\nf 1 1 1\n")), "");
-  EXPECT_NE(refusal(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")).find("vertex"),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusal(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n")), "vertex"));
   EXPECT_NE(refusal(file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n")), "");
   EXPECT_NE(refusal(file("half.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n")),
             "");
   fs::create_directory(path("folder.ply"));
-  EXPECT_NE(refusal(path("folder.ply")).find("folder"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(path("folder.ply")), "folder"));
   fs::create_symlink("/dev/zero", path("endless.ply"));
-  EXPECT_NE(refusal(path("endless.ply")).find("device"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(path("endless.ply")), "device"));
   // A header that promises more than the file can hold must not be believed.
   EXPECT_NE(refusal(file("huge.ply",
                          "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000000\n"

@@ -3,12 +3,30 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace wscvt::test {
+
+/// Bytes in base64 (RFC 4648).
+inline std::string base64(const std::string& bytes) {
+  const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::uint32_t word = 0;
+    const std::size_t held = std::min<std::size_t>(3, bytes.size() - k);
+    for (std::size_t i = 0; i < 3; ++i) {
+      word = word << 8 | (i < held ? static_cast<unsigned char>(bytes[k + i]) : 0U);
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      text += i <= held ? letters[word >> (18 - 6 * i) & 63U] : '=';
+    }
+  }
+  return text;
+}
 
 /// The bytes that a text in base64 stands for (RFC 4648).
 inline std::string decoded(const std::string& text) {

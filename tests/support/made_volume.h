@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "support/coded_bytes.h"
 #include "wscvt/base/indexed_mesh.h"
 
 namespace wscvt::test {
@@ -109,22 +110,6 @@ inline std::string packed(const std::string& bytes, bool is_gzip) {
   result.resize(stream.total_out);
   deflateEnd(&stream);
   return result;
-}
-
-inline std::string base64(const std::string& bytes) {
-  const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    std::uint32_t word = 0;
-    const std::size_t held = std::min<std::size_t>(3, bytes.size() - k);
-    for (std::size_t i = 0; i < 3; ++i) {
-      word = word << 8 | (i < held ? static_cast<unsigned char>(bytes[k + i]) : 0U);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      text += i <= held ? letters[word >> (18 - 6 * i) & 63U] : '=';
-    }
-  }
-  return text;
 }
 
 /// A number of four bytes, the least first.

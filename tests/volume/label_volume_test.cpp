@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/holds.h"
 #include "support/volume_folder.h"
 
 namespace wscvt {
@@ -348,11 +349,7 @@ TEST_F(LabelVolumeOfAFile, ReadsTiffPagesFoldersAndStacksOfImageJ) {
   // Above 4 GiB: one page, and all voxels behind it.
   write_tiff("one.tif", "wb", 0, 1, COMPRESSION_NONE, 5, text);
   const std::string page = made_.bytes<std::uint16_t>(true).substr(0, 70);
-  std::string bytes;
-  {
-    std::ifstream stream(path("one.tif"), std::ios::binary);
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  }
+  std::string bytes = content("one.tif");
   // Its voxels stand before its directory: the strip's offset is turned to the end.
   const std::size_t place = bytes.find(page);
   ASSERT_NE(place, std::string::npos);
@@ -396,8 +393,7 @@ TEST_F(LabelVolumeOfAFile, TakesNoPageThatWasWrittenAnewForImageJsBlock) {
   write_tiled_tiff<std::uint16_t>("a.tif", "w", COMPRESSION_NONE, text);
   const std::string sentence =
       test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("a.tif")); });
-  EXPECT_NE(sentence.find("has one page of the 3 that ImageJ noted"), std::string::npos)
-      << sentence;
+  EXPECT_TRUE(test::holds(sentence, "has one page of the 3 that ImageJ noted"));
 }
 
 TEST_F(LabelVolumeOfAFile, RefusesTiffsThatAreCutOrDiffer) {
@@ -540,8 +536,7 @@ TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
                                                         {"text.am", "packed, or a text"},
                                                         {"a.raw", "\"file\": \"a.raw\""}}) {
     const std::string file = path(name);
-    EXPECT_NE(test::refusal(ErrorCode::InputOutput, [&] { open_volume(file); }).find(way),
-              std::string::npos)
+    EXPECT_TRUE(test::holds(test::refusal(ErrorCode::InputOutput, [&] { open_volume(file); }), way))
         << name;
   }
   // The way from AmiraMesh, followed.
