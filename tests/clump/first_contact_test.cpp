@@ -83,24 +83,31 @@ IndexedMesh grain(double scale) {
   return test::moved(test::moved(std::move(mesh), 1.0, -centroid), scale, Vector3(7.0, -2.0, 3.0));
 }
 
-TEST(ScanContacts, OfTheScanItselfHaveNoError) {
-  const IndexedMesh scan = grain(1.0);
-  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
-  const ContactError error = contacts.errors_of(scan, Execution(1)).distance;
-  EXPECT_EQ(error.mean, 0.0);
-  EXPECT_EQ(error.scatter, 0.0);
+/// Its contacts, and the errors of a body that is smaller by 2 %.
+const ScanContacts& contacts_of_the_grain() {
+  static const ScanContacts contacts(grain(1.0), describe_shape(grain(1.0), Execution(1)),
+                                     Execution(1));
+  return contacts;
+}
+const ScanContacts::Errors& errors_of_a_smaller_body() {
+  static const ScanContacts::Errors errors =
+      contacts_of_the_grain().errors_of(grain(0.98), Execution(1));
+  return errors;
 }
 
-TEST(ScanContacts, PlacesAndNormalsOfTheScanItselfHaveNoError) {
-  const IndexedMesh scan = grain(1.0);
-  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
-  const ScanContacts::Errors same = contacts.errors_of(scan, Execution(3));
+TEST(ScanContacts, OfTheScanItselfHaveNoError) {
+  const ScanContacts::Errors same = contacts_of_the_grain().errors_of(grain(1.0), Execution(3));
+  EXPECT_EQ(same.distance.mean, 0.0);
+  EXPECT_EQ(same.distance.scatter, 0.0);
   for (const TouchErrors& errors : {same.two_sided, same.one_sided}) {
     EXPECT_EQ(errors.gap.percent_90, 0.0);
     EXPECT_EQ(errors.place.percent_90, 0.0);
     EXPECT_LT(errors.normal.percent_90, 1e-5);  // acos of a rounded 1
   }
-  const ScanContacts::Errors smaller = contacts.errors_of(grain(0.98), Execution(1));
+}
+
+TEST(ScanContacts, PlacesAndNormalsFollowASmallerBody) {
+  const ScanContacts::Errors& smaller = errors_of_a_smaller_body();
   // Half of the distance that two of them lose; both move the place by 2 % of a half-axis, 1.2 to 2
   // over the radius, and by pixels; normals of similar bodies are equal but for the pixels.
   EXPECT_NEAR(smaller.one_sided.gap.median / smaller.two_sided.gap.median, 0.5, 0.05);
@@ -179,9 +186,7 @@ TEST(FirstTouch, ErrorsAreQuantilesOverThePairsThatTouch) {
 /// Bodies that are smaller by 2 % touch at 2 % less of the distance, which lies between twice the
 /// least half-axis, 1.2 less its curving, and twice the greatest.
 TEST(ScanContacts, OfASmallerBodyAreTooNear) {
-  const IndexedMesh scan = grain(1.0);
-  const ScanContacts contacts(scan, describe_shape(scan, Execution(1)), Execution(1));
-  const ContactError error = contacts.errors_of(grain(0.98), Execution(1)).distance;
+  const ContactError error = errors_of_a_smaller_body().distance;
   const double radius = std::cbrt(2.0 * 1.5 * 1.2);
   EXPECT_LT(error.mean, -4.0 * 1.1 / radius);
   EXPECT_GT(error.mean, -4.0 * 2.1 / radius);
@@ -193,10 +198,7 @@ TEST(ScanContacts, FollowMotionAndScale) {
   const auto placed = [&](double scale) {
     return test::transformed(grain(scale), turn, Vector3(-1.0, 4.0, 0.5));
   };
-  const IndexedMesh scan = grain(1.0);
-  const ContactError error = ScanContacts(scan, describe_shape(scan, Execution(1)), Execution(1))
-                                 .errors_of(grain(0.9), Execution(1))
-                                 .distance;
+  const ContactError error = contacts_of_the_grain().errors_of(grain(0.9), Execution(1)).distance;
   const IndexedMesh turned = placed(1.0);
   const ContactError same = ScanContacts(turned, describe_shape(turned, Execution(2)), Execution(2))
                                 .errors_of(placed(0.9), Execution(2))

@@ -14,6 +14,7 @@
 
 #include "grains/packing.h"
 #include "support/expect_error.h"
+#include "support/holds.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "support/tiff_pages.h"
@@ -28,6 +29,7 @@
 namespace wscvt {
 namespace {
 
+using test::holds;
 using test::MadeVolume;
 
 class SegmentationOfAFile : public test::VolumeFolder {
@@ -60,7 +62,8 @@ class SegmentationOfAPacking : public SegmentationOfAFile {
     options.smallest = 9.0;
     options.largest = 15.0;
     options.box = {66.0, 64.0, 66.0};
-    grains_ = test::packing(options);
+    static const std::vector<test::PackedGrain> packed = test::packing(options);
+    grains_ = packed;
     voxels_ = test::voxels_of(grains_, options.box, spacing);
     made_ = MadeVolume(voxels_.counts);
     made_.labels = is_mask ? voxels_.truth : test::grey_values(voxels_, {});
@@ -157,7 +160,7 @@ TEST_F(SegmentationOfAPacking, TakesMasksAsTheyAre) {
   EXPECT_EQ(grains.labels().size(), found.grains.size());
   EXPECT_EQ(grains.left_out(), 0.0);
   ASSERT_FALSE(grains.notes().empty());
-  EXPECT_NE(grains.notes()[0].text().find("voxel size"), std::string::npos);
+  EXPECT_TRUE(holds(grains.notes()[0].text(), "voxel size"));
 }
 
 TEST_F(SegmentationOfAFile, MeasuresNecksAgainstTheSmallerGrain) {
@@ -412,7 +415,7 @@ TEST_F(SegmentationOfFourBalls, EachGrainHasItsOwnEdge) {
         // The level of .05 of a contrast is a blur's 1.6 standard deviations out, or 40 %.
         EXPECT_NEAR(volume, 1.0, 0.05) << bright << (is_dark ? " dark" : "");
       }
-      EXPECT_EQ(looks(found).find("too large"), std::string::npos) << looks(found);
+      EXPECT_FALSE(holds(looks(found), "too large"));
     }
   }
 }
@@ -464,8 +467,8 @@ TEST_F(SegmentationOfFourBalls, ALayerAtTheSurfaceIsToldAndTheAdviceWorks) {
   // A pore; it leaves shells of 3 voxels.
   write_core(5.0, 5.0);
   const Segmentation pores = segmented();
-  EXPECT_NE(looks(pores).find("near 15"), std::string::npos) << looks(pores);
-  EXPECT_EQ(looks(pores).find("noise"), std::string::npos) << looks(pores);
+  EXPECT_TRUE(holds(looks(pores), "near 15"));
+  EXPECT_FALSE(holds(looks(pores), "noise"));
   ASSERT_EQ(pores.grains.size(), 4U);
   for (const double volume : volumes(pores)) EXPECT_NEAR(volume, 1.0, 0.03);
   // A dense core, or a film around it.
@@ -475,8 +478,8 @@ TEST_F(SegmentationOfFourBalls, ALayerAtTheSurfaceIsToldAndTheAdviceWorks) {
   EXPECT_TRUE(cores.steps[0].goes_on());
   EXPECT_NEAR(cores.steps[0].layer, 44.0 + layer, 10.0);
   EXPECT_NEAR(cores.steps[0].inside, 44.0 + 190.0, 10.0);
-  EXPECT_NE(looks(cores).find("in two steps"), std::string::npos) << looks(cores);
-  EXPECT_EQ(looks(cores).find("several minerals"), std::string::npos) << looks(cores);
+  EXPECT_TRUE(holds(looks(cores), "in two steps"));
+  EXPECT_FALSE(holds(looks(cores), "several minerals"));
   SegmentationOptions options;
   options.threshold = 0.5 * (cores.steps[0].space + cores.steps[0].layer);
   const std::vector<double> whole = volumes(segmented(options));
@@ -494,7 +497,7 @@ TEST_F(SegmentationOfFourBalls, ALayerAtTheSurfaceIsToldAndTheAdviceWorks) {
   ASSERT_EQ(films.steps.size(), 1U) << looks(films);
   EXPECT_TRUE(films.steps[0].goes_on());
   EXPECT_NEAR(films.steps[0].layer, 44.0 + 70.0, 12.0);
-  EXPECT_NE(looks(films).find("in two steps"), std::string::npos) << looks(films);
+  EXPECT_TRUE(holds(looks(films), "in two steps"));
   // Plain balls have none.
   write_scan({layer, layer, layer, layer}, 0.8, nothing);
   EXPECT_TRUE(segmented().steps.empty());
@@ -520,8 +523,8 @@ TEST_F(SegmentationOfFourBalls, ABlurBeyondWhatIsCorrectedIsTold) {
   }
   write_scan({120, 120, 120, 120}, 2.5, nothing);
   const std::string soft = looks(segmented());
-  EXPECT_NE(soft.find("too small, smaller ones more"), std::string::npos) << soft;
-  EXPECT_NE(soft.find("% too small"), std::string::npos) << soft;
+  EXPECT_TRUE(holds(soft, "too small, smaller ones more"));
+  EXPECT_TRUE(holds(soft, "% too small"));
 }
 
 /// As blurred_ball, exactly: the convolution of a ball and a Gaussian.
@@ -577,7 +580,7 @@ TEST_F(SegmentationOfFourBalls, TheWallOfAContainerIsNoGrainAndIsTold) {
       if (kind == 1) write_scan({120, 120, 120, 120}, 0.8, box);
       if (kind == 2) write_scan({120, 120, 120, 120}, 0.8, plate);
       const Segmentation found = segmented();
-      EXPECT_NE(looks(found).find("taken for a container"), std::string::npos) << looks(found);
+      EXPECT_TRUE(holds(looks(found), "taken for a container"));
       ASSERT_EQ(found.grains.size(), 4U);
       EXPECT_GT(found.wall, 0U);
       // Where a ball touches, a cap of 1.8 voxels, 3.5 %, may go with the wall; one of a box
@@ -683,8 +686,8 @@ TEST_F(SegmentationOfTwoMinerals, TakesBothNamesThePeaksAndFollowsItsAdvice) {
   EXPECT_NEAR(found.peaks[1], 110.0, 4.0);
   EXPECT_NEAR(found.peaks[2], 220.0, 4.0);
   EXPECT_NEAR(found.threshold, 75.0, 4.0);
-  EXPECT_NE(looks(found).find("3 peaks"), std::string::npos) << looks(found);
-  EXPECT_NE(looks(found).find("--phases 1"), std::string::npos);
+  EXPECT_TRUE(holds(looks(found), "3 peaks"));
+  EXPECT_TRUE(holds(looks(found), "--phases 1"));
   SegmentationOptions options;
   options.phases = 1;
   const Segmentation bright = segmented(options);
@@ -713,7 +716,7 @@ TEST_F(SegmentationOfTwoMinerals, DenseCoresAndStrongNoiseLeaveTheGrains) {
     // A phase of more than a thousandth of the voxels is named, and can be had alone.
     EXPECT_EQ(found.peaks.size(), core > 2.0 ? 3U : 2U);
     if (core < 2.0) continue;
-    EXPECT_NE(looks(found).find("--phases 1"), std::string::npos) << looks(found);
+    EXPECT_TRUE(holds(looks(found), "--phases 1"));
     SegmentationOptions options;
     options.phases = 1;
     options.smallest = 50;
@@ -726,7 +729,7 @@ TEST_F(SegmentationOfTwoMinerals, DenseCoresAndStrongNoiseLeaveTheGrains) {
   const Segmentation noisy = segmented();
   EXPECT_EQ(noisy.grains.size(), 8U);
   EXPECT_NEAR(noisy.threshold, 1050.0, 5.0);
-  EXPECT_NE(looks(noisy).find("The noise is strong"), std::string::npos) << looks(noisy);
+  EXPECT_TRUE(holds(looks(noisy), "The noise is strong"));
 }
 
 TEST_F(SegmentationOfTwoMinerals, MasksOfPhasesAreNoLabels) {
@@ -735,8 +738,8 @@ TEST_F(SegmentationOfTwoMinerals, MasksOfPhasesAreNoLabels) {
     write_made();
     const Segmentation found = segmented();
     EXPECT_EQ(found.grains.size(), 8U) << step;
-    EXPECT_EQ(looks(found).find("labels already"), std::string::npos) << looks(found);
-    EXPECT_NE(looks(found).find("--phases 1"), std::string::npos) << looks(found);
+    EXPECT_FALSE(holds(looks(found), "labels already"));
+    EXPECT_TRUE(holds(looks(found), "--phases 1"));
     SegmentationOptions options;
     options.phases = 1;
     EXPECT_EQ(segmented(options).grains.size(), 2U) << step;
@@ -760,9 +763,8 @@ TEST_F(SegmentationOfAFile, MasksAreTakenAsTheyAre) {
     EXPECT_EQ(found.grains.size(), 2U);
     EXPECT_EQ(found.material, static_cast<std::uint64_t>(grains));
     options.phases = 3;
-    EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { segmented(options); })
-                  .find("at most 2 can be material"),
-              std::string::npos);
+    EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { segmented(options); }),
+                      "at most 2 can be material"));
     for (Label& label : made_.labels) label = 2 - label;
     write_made();
   }
@@ -832,7 +834,7 @@ TEST_F(SegmentationOfAFile, BlurAndMedianDoNotMoveCurvedSurfaces) {
 TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   make({200, 90, 90});
   write_made();
-  EXPECT_NE(looks(segmented()).find("--dark"), std::string::npos);
+  EXPECT_TRUE(holds(looks(segmented()), "--dark"));
   SegmentationOptions options;
   options.dark = true;
   const Segmentation found = segmented(options);
@@ -840,7 +842,7 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   EXPECT_EQ(looks(found), "");
   make({200, 90, 30});
   write_made();
-  EXPECT_NE(looks(segmented()).find("If they are the holes, give --dark"), std::string::npos);
+  EXPECT_TRUE(holds(looks(segmented()), "If they are the holes, give --dark"));
   EXPECT_EQ(segmented(options).grains.size(), 8U);
   options.phases = 1;
   EXPECT_EQ(segmented(options).grains.size(), 2U);
@@ -856,13 +858,13 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   }
   write_made();
   EXPECT_GT(segmented().not_scanned, 0U);
-  EXPECT_NE(looks(segmented()).find("--dark"), std::string::npos) << looks(segmented());
+  EXPECT_TRUE(holds(looks(segmented()), "--dark"));
   EXPECT_EQ(segmented(options).grains.size(), 8U);
   // The wrong way round is told too.
   make({40, 110, 110});
   write_made();
   options.phases.reset();
-  EXPECT_NE(looks(segmented(options)).find("Leave --dark out"), std::string::npos);
+  EXPECT_TRUE(holds(looks(segmented(options)), "Leave --dark out"));
 }
 
 TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {
@@ -1069,11 +1071,10 @@ TEST_F(SegmentationOfALattice, AResinWithBubblesHasThreePeaksAndTheAdviceWorks) 
   write_made();
   ASSERT_GT(bubbles, 4000U);
   const std::string told = looks(segmented());
-  EXPECT_NE(told.find("The material fills the volume"), std::string::npos) << told;
-  EXPECT_NE(told.find("3 peaks, at "), std::string::npos) << told;
-  EXPECT_NE(told.find("If only the brightest are grains, give their number, such as --phases 1"),
-            std::string::npos)
-      << told;
+  EXPECT_TRUE(holds(told, "The material fills the volume"));
+  EXPECT_TRUE(holds(told, "3 peaks, at "));
+  EXPECT_TRUE(
+      holds(told, "If only the brightest are grains, give their number, such as --phases 1"));
   SegmentationOptions brightest;
   brightest.phases = 1;
   EXPECT_EQ(segmented(brightest).grains.size(), 64U);
@@ -1086,7 +1087,7 @@ TEST_F(SegmentationOfALattice, LostSlicesAreToldAndTheAdviceWorks) {
     return made_.labels.begin() + static_cast<std::ptrdiff_t>(z * slice);
   };
   write_made();
-  EXPECT_EQ(looks(segmented()).find("one grey value"), std::string::npos);
+  EXPECT_FALSE(holds(looks(segmented()), "one grey value"));
   for (const std::size_t z : {6, 7, 19}) std::fill(place(z), place(z + 1), Label{0});
   // At the end nothing goes on behind it.
   std::fill(place(45), place(46), Label{0});
@@ -1096,13 +1097,13 @@ TEST_F(SegmentationOfALattice, LostSlicesAreToldAndTheAdviceWorks) {
   EXPECT_EQ(found.cutting_slices, (std::vector<std::size_t>{6, 7}));
   EXPECT_GT(found.grains.size(), 70U);
   const std::string told = looks(found);
-  EXPECT_NE(told.find("2 slices have one grey value, so that grains end there"), std::string::npos);
-  EXPECT_NE(told.find(": 6, 7, counted from 0."), std::string::npos) << told;
-  EXPECT_NE(told.find("scan[6] = scan[5]"), std::string::npos) << told;
+  EXPECT_TRUE(holds(told, "2 slices have one grey value, so that grains end there"));
+  EXPECT_TRUE(holds(told, ": 6, 7, counted from 0."));
+  EXPECT_TRUE(holds(told, "scan[6] = scan[5]"));
   for (const std::size_t z : {6, 7}) std::copy(place(z - 1), place(z), place(z));
   write_made();
   EXPECT_EQ(segmented().grains.size(), 64U);
-  EXPECT_EQ(looks(segmented()).find("one grey value"), std::string::npos);
+  EXPECT_FALSE(holds(looks(segmented()), "one grey value"));
   // A mask may have slices without a grain.
   for (Label& value : made_.labels) value = value > 1150 ? 1 : 0;
   for (const std::size_t z : {6, 7}) std::fill(place(z), place(z + 1), Label{0});
@@ -1124,10 +1125,7 @@ TEST_F(SegmentationOfAFile, PiecesOfPorousGrainsAreToldAndClosingThePoresWorks) 
   }
   write_made();
   const auto is_told = [&] {
-    const std::vector<Sentence> doubts = doubts_of(segmented());
-    return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
-      return doubt.find("over a neck nearly as wide as themselves") != std::string::npos;
-    });
+    return test::any_holds(doubts_of(segmented()), "over a neck nearly as wide as themselves");
   };
   EXPECT_GT(segmented().grains.size(), 16U);
   EXPECT_GT(segmented().wide_neck_fraction, 0.3);
@@ -1287,11 +1285,11 @@ TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
     for (const std::string& line : segmentation_lines(segmented())) text += line + "\n";
     return text;
   };
-  EXPECT_EQ(doubts(0).find("grey values from"), std::string::npos);
-  EXPECT_EQ(doubts(150).find("grey values from"), std::string::npos);
+  EXPECT_FALSE(holds(doubts(0), "grey values from"));
+  EXPECT_FALSE(holds(doubts(150), "grey values from"));
   const std::string text = doubts(600);
-  EXPECT_NE(text.find("white_tophat"), std::string::npos) << text;
-  EXPECT_EQ(text.find("as of several minerals"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "white_tophat"));
+  EXPECT_FALSE(holds(text, "as of several minerals"));
 }
 
 // In much void most neighbours are equal without noise, as in labels, but the edges are of a scan.
@@ -1311,7 +1309,7 @@ TEST_F(SegmentationOfAFile, TakesAScanWithoutNoiseForNoLabels) {
   for (const bool is_known : {false, true}) {
     if (is_known) options.threshold = 200.0;
     for (const std::string& line : segmentation_lines(segmented(options))) {
-      EXPECT_EQ(line.find("labels already"), std::string::npos) << is_known << line;
+      EXPECT_FALSE(holds(line, "labels already")) << is_known;
     }
   }
 }
@@ -1346,26 +1344,24 @@ TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
   for (const double noise : {0.0, 2.0, 10.0}) {
     const std::string clean = doubts(0.0, 500.0, noise, false);
     for (const char* words : {"cut off", "end at once", "labels already"}) {
-      EXPECT_EQ(clean.find(words), std::string::npos) << noise << clean;
+      EXPECT_FALSE(holds(clean, words)) << noise;
     }
   }
-  EXPECT_EQ(doubts(95.0, 305.0, 10.0, false).find("cut off"), std::string::npos);
+  EXPECT_FALSE(holds(doubts(95.0, 305.0, 10.0, false), "cut off"));
   for (const bool is_dark : {false, true}) {
     const std::string low = doubts(150.0, 500.0, 10.0, is_dark);
-    EXPECT_NE(low.find("have one value, the least of the scan: "), std::string::npos) << low;
-    EXPECT_NE(low.find(is_dark ? "come out too large" : "come out too small"), std::string::npos)
-        << low;
+    EXPECT_TRUE(holds(low, "have one value, the least of the scan: "));
+    EXPECT_TRUE(holds(low, is_dark ? "come out too large" : "come out too small"));
     const std::string high = doubts(0.0, 250.0, 10.0, is_dark);
-    EXPECT_NE(high.find("have one value, the largest of the scan: "), std::string::npos) << high;
-    EXPECT_NE(high.find(is_dark ? "come out too small" : "come out too large"), std::string::npos)
-        << high;
+    EXPECT_TRUE(holds(high, "have one value, the largest of the scan: "));
+    EXPECT_TRUE(holds(high, is_dark ? "come out too small" : "come out too large"));
     // Of both ends, with and without noise that reaches into the window.
     const std::string both = doubts(113.0, 287.0, 10.0, is_dark);
-    EXPECT_NE(both.find("the least of the scan, and"), std::string::npos) << both;
-    EXPECT_NE(both.find("too small or too large"), std::string::npos) << both;
+    EXPECT_TRUE(holds(both, "the least of the scan, and"));
+    EXPECT_TRUE(holds(both, "too small or too large"));
     const std::string sharp = doubts(118.0, 282.0, 2.0, is_dark);
-    EXPECT_NE(sharp.find("the edges between them end at once"), std::string::npos) << sharp;
-    EXPECT_EQ(sharp.find("labels already"), std::string::npos) << sharp;
+    EXPECT_TRUE(holds(sharp, "the edges between them end at once"));
+    EXPECT_FALSE(holds(sharp, "labels already"));
   }
 }
 
@@ -1388,23 +1384,21 @@ TEST_F(SegmentationOfAFile, DoubtsLabels) {
   SegmentationOptions options;
   options.threshold = 1.0;
   const std::vector<std::string> lines = segmentation_lines(segmented(options));
-  EXPECT_NE(lines.back().find("may be labels already"), std::string::npos) << lines.back();
+  EXPECT_TRUE(holds(lines.back(), "may be labels already"));
 }
 
 TEST_F(SegmentationOfAFile, RefusesWhatItCannotDo) {
   made_ = MadeVolume({9, 8, 7});
   std::fill(made_.labels.begin(), made_.labels.end(), 7);
   write_made();
-  EXPECT_NE(test::refusal(ErrorCode::InvalidInput, [&] { segmented(); }).find("are 7"),
-            std::string::npos);
+  EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { segmented(); }), "are 7"));
   made_.fill_box(9, {2, 2, 2}, {6, 6, 6});
   made_.fill_box(8, {2, 2, 2}, {4, 4, 4});
   write_made();
   const std::unique_ptr<LabelVolume> labels = open_volume(path("a.nrrd"));
-  EXPECT_NE(
-      test::refusal(ErrorCode::InvalidInput, [&] { separated(*labels, 7, 0.75, Execution(1)); })
-          .find("8 and 9"),
-      std::string::npos);
+  EXPECT_TRUE(holds(
+      test::refusal(ErrorCode::InvalidInput, [&] { separated(*labels, 7, 0.75, Execution(1)); }),
+      "8 and 9"));
   SegmentationOptions options;
   options.separate = 0.0;
   EXPECT_ERROR(segmented(options), InvalidInput);
@@ -1477,16 +1471,16 @@ TEST_F(SegmentationOfAPacking, IsStopped) {
   const auto run = [&](const Execution& execution) {
     segment(*open_volume(path("a.nrrd")), {}, execution);
   };
+  std::map<std::string, int> reports;
+  run(Execution(1, [&](double /*fraction*/, const std::string& stage) {
+    ++reports[stage];
+    return true;
+  }));
   for (const char* stage : {"Smoothing grey values", "Filling holes", "Measuring distances",
                             "Separating grains", "Counting labels"}) {
     SCOPED_TRACE(stage);
-    int reports = 0;
-    run(Execution(1, [&](double /*fraction*/, const std::string& reported) {
-      reports += reported == stage ? 1 : 0;
-      return true;
-    }));
     // The last may come from a destructor, which must not throw.
-    test::expect_to_be_stopped(run, stage, reports);
+    test::expect_to_be_stopped(run, stage, reports[stage]);
   }
 }
 
@@ -1653,7 +1647,7 @@ TEST_F(SegmentationOfAFile, ShowsSlicesWithOutlines) {
   const std::string page = segmentation_html(*scan, found, {"a.nrrd", ""}, Execution(1));
   for (const char* part : {"Grains of a scan: 2", "a.nrrd", "0 of them at the border", ", mm",
                            "smallest", "data:image/png"}) {
-    EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_TRUE(holds(page, part));
   }
 }
 
