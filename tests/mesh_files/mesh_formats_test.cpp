@@ -103,6 +103,7 @@ TEST_F(MeshFormats, HoldNoPositionThatIsNotFinite) {
       EXPECT_ERROR(write_mesh(mesh, path(name)), InvalidInput);
       EXPECT_FALSE(fs::exists(path(name))) << name;
     }
+    EXPECT_ERROR(write_mesh(mesh, path("a.ply"), PlyCoordinates::Float), InvalidInput);
     if (lost != 1e39) EXPECT_ERROR(write_mesh(mesh, MeshAttributes(), path("a.ply")), InvalidInput);
   }
 }

@@ -53,22 +53,26 @@ TEST_F(MeshIo, WritesAndReadsBackEveryFormat) {
 
 TEST_F(MeshIo, SaysWhichCoordinatesAFileKeeps) {
   const IndexedMesh mesh = test::transformed(test::lumpy(2), Eigen::Matrix3d::Identity(), far_away);
-  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
-    SCOPED_TRACE(name);
-    const IndexedMesh kept = as_written(mesh, path(name));
-    const bool is_stl = std::string(name) == "a.stl";
-    // Nearer, where STL takes it: its corners are points of their own.
-    const IndexedMesh near = is_stl ? as_written(test::lumpy(2), path(name)) : kept;
-    write_mesh(is_stl ? test::lumpy(2) : mesh, path(name));
-    const IndexedMesh back = read_mesh(path(name));
-    ASSERT_EQ(back.triangles.size(), near.triangles.size());
-    for (std::size_t f = 0; f < near.triangles.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        ASSERT_EQ(back.points[back.triangles[f][k]], near.points[near.triangles[f][k]]);
+  for (const auto coordinates : {PlyCoordinates::Double, PlyCoordinates::Float}) {
+    for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl"}) {
+      SCOPED_TRACE(name);
+      const IndexedMesh kept = as_written(mesh, path(name), coordinates);
+      const bool is_stl = std::string(name) == "a.stl";
+      // Nearer, where STL takes it: its corners are points of their own.
+      const IndexedMesh near = is_stl ? as_written(test::lumpy(2), path(name)) : kept;
+      write_mesh(is_stl ? test::lumpy(2) : mesh, path(name), coordinates);
+      const IndexedMesh back = read_mesh(path(name));
+      ASSERT_EQ(back.triangles.size(), near.triangles.size());
+      for (std::size_t f = 0; f < near.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_EQ(back.points[back.triangles[f][k]], near.points[near.triangles[f][k]]);
+        }
       }
+      EXPECT_EQ(kept.triangles, mesh.triangles);
+      const bool is_single =
+          is_stl || (std::string(name) == "a.ply" && coordinates == PlyCoordinates::Float);
+      EXPECT_EQ(kept.points == mesh.points, !is_single);
     }
-    EXPECT_EQ(kept.triangles, mesh.triangles);
-    EXPECT_EQ(kept.points == mesh.points, !is_stl);
   }
 }
 
@@ -125,6 +129,20 @@ TEST_F(MeshIo, WritesAndReadsBackWhatPlyCarriesInEveryType) {
   EXPECT_TRUE(read_mesh_file(path("b.obj")).attributes.empty());
   own.of_vertices[0].values.pop_back();
   EXPECT_ERROR(write_mesh(mesh, own, path("b.ply")), InvalidInput);
+}
+
+TEST_F(MeshIo, WritesPlyInSinglePrecisionWhenTold) {
+  const IndexedMesh mesh = test::lumpy(2);
+  write_mesh(mesh, path("a.ply"), PlyCoordinates::Float);
+  const IndexedMesh back = read_mesh(path("a.ply"));
+  EXPECT_EQ(back.triangles, mesh.triangles);
+  ASSERT_EQ(back.points.size(), mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto expected = static_cast<float>(mesh.points[i][axis]);
+      EXPECT_EQ(back.points[i][axis], static_cast<double>(expected));
+    }
+  }
 }
 
 TEST_F(MeshIo, WritesStlInSinglePrecision) {

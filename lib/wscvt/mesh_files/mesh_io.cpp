@@ -105,10 +105,12 @@ void write_properties(std::ostream& stream, const std::vector<MeshAttribute>& at
   }
 }
 
-void write_ply_with(std::ostream& stream, const IndexedMesh& mesh,
+void write_ply_with(std::ostream& stream, const IndexedMesh& mesh, PlyCoordinates coordinates,
                     const MeshAttributes& attributes) {
+  const ScalarType type =
+      coordinates == PlyCoordinates::Double ? ScalarType::Float64 : ScalarType::Float32;
   stream << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.points.size();
-  stream << "\nproperty double x\nproperty double y\nproperty double z";
+  for (const char* name : {" x", " y", " z"}) stream << "\nproperty " << ply_name(type) << name;
   write_properties(stream, attributes.of_vertices);
   stream << "\nelement face " << mesh.triangles.size()
          << "\nproperty list uchar int vertex_indices";
@@ -116,7 +118,7 @@ void write_ply_with(std::ostream& stream, const IndexedMesh& mesh,
   stream << "\nend_header\n";
   Bytes bytes(stream);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    for (const double coordinate : mesh.points[i]) bytes.add(coordinate);
+    for (const double coordinate : mesh.points[i]) add_number(bytes, type, coordinate);
     for (const MeshAttribute& a : attributes.of_vertices) add_number(bytes, a.type, a.values[i]);
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -128,7 +130,7 @@ void write_ply_with(std::ostream& stream, const IndexedMesh& mesh,
 }
 
 void write_ply(std::ostream& stream, const IndexedMesh& mesh) {
-  write_ply_with(stream, mesh, MeshAttributes());
+  write_ply_with(stream, mesh, PlyCoordinates::Double, MeshAttributes());
 }
 
 /// Returns the number of points that single precision makes equal to a different point.
@@ -313,6 +315,11 @@ bool is_mesh_file(const std::string& path) {
 
 namespace {
 
+bool is_single(const Format& format, PlyCoordinates coordinates) {
+  return format.write == write_stl ||
+         (format.write == write_ply && coordinates == PlyCoordinates::Float);
+}
+
 /// Refuses positions that no reader takes.
 void check_positions(const IndexedMesh& mesh, const std::string& path, bool in_floats) {
   const double largest =
@@ -328,10 +335,10 @@ void check_positions(const IndexedMesh& mesh, const std::string& path, bool in_f
 
 }  // namespace
 
-IndexedMesh as_written(IndexedMesh mesh, const std::string& path) {
+IndexedMesh as_written(IndexedMesh mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
   const bool is_short = format.write == write_abaqus;
-  if (format.write != write_stl && !is_short) return mesh;
+  if (!is_single(format, coordinates) && !is_short) return mesh;
   for (Vector3& p : mesh.points) {
     for (double& coordinate : p) {
       // Volatile, because GCC 12 optimises the rounding to single precision away.
@@ -342,9 +349,9 @@ IndexedMesh as_written(IndexedMesh mesh, const std::string& path) {
   return mesh;
 }
 
-void write_mesh(const IndexedMesh& mesh, const std::string& path) {
+void write_mesh(const IndexedMesh& mesh, const std::string& path, PlyCoordinates coordinates) {
   const Format& format = format_of(path, MeshUse::Write);
-  check_positions(mesh, path, format.write == write_stl);
+  check_positions(mesh, path, is_single(format, coordinates));
   const bool is_stl = format.write == write_stl || format.write == write_stl_text;
   if (is_stl && mesh.triangles.empty()) {
     refuse("\"" + path + "\" would be empty: STL has only triangles, and the mesh has none.");
@@ -364,7 +371,13 @@ void write_mesh(const IndexedMesh& mesh, const std::string& path) {
               ". Write PLY, OBJ or OFF, or move the mesh to the origin first.");
     }
   }
-  write_file(path, [&](std::ostream& stream) { format.write(stream, mesh); });
+  write_file(path, [&](std::ostream& stream) {
+    if (format.write == write_ply) {
+      write_ply_with(stream, mesh, coordinates, MeshAttributes());
+    } else {
+      format.write(stream, mesh);
+    }
+  });
 }
 
 bool holds_attributes(const std::string& path) {
@@ -396,7 +409,9 @@ void write_mesh(const IndexedMesh& mesh, const MeshAttributes& attributes,
              " vertices or faces. Give one each.");
     }
   }
-  write_file(path, [&](std::ostream& stream) { write_ply_with(stream, mesh, attributes); });
+  write_file(path, [&](std::ostream& stream) {
+    write_ply_with(stream, mesh, PlyCoordinates::Double, attributes);
+  });
 }
 
 }  // namespace wscvt

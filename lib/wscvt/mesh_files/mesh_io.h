@@ -65,18 +65,23 @@ std::string mesh_extensions(MeshUse use);
 /// finite-element meshes do not count: the user must name them.
 bool is_mesh_file(const std::string& path);
 
+/// Number of digits that a binary PLY file keeps of each coordinate.
+enum class PlyCoordinates { Double, Float };
+
 /// Returns the mesh with the coordinates that write_mesh keeps in a file with this name. Throws as
 /// check_mesh_format.
-IndexedMesh as_written(IndexedMesh mesh, const std::string& path);
+IndexedMesh as_written(IndexedMesh mesh, const std::string& path,
+                       PlyCoordinates coordinates = PlyCoordinates::Double);
 
 /// Writes a mesh in the format of the extension, completely or not at all (see write_file): PLY,
 /// STL, OBJ, OFF, VTK (legacy), VTP, VTU, MSH (Gmsh 4.1) and INP (Abaqus). PLY is binary, with
-/// double coordinates. STL is binary, with that format's float coordinates, or text. The others are
-/// text. Only binary STL and INP lose digits, because their numbers are short. Throws
+/// double coordinates by default. STL is binary, with that format's float coordinates, or text. The
+/// others are text. Only binary STL and INP lose digits, because their numbers are short. Throws
 /// Error(InputOutput) if the file cannot be written or different vertices would become equal in the
 /// floats of STL; an existing file then stays as it was. Throws Error(InvalidInput) if the
-/// extension is unknown or a coordinate is not finite, also in the floats of STL.
-void write_mesh(const IndexedMesh& mesh, const std::string& path);
+/// extension is unknown or a coordinate is not finite, also in the floats of PLY and STL.
+void write_mesh(const IndexedMesh& mesh, const std::string& path,
+                PlyCoordinates coordinates = PlyCoordinates::Double);
 
 /// Whether write_mesh keeps attributes in a file with this name. Only PLY does.
 bool holds_attributes(const std::string& path);
