@@ -616,6 +616,9 @@ TEST_F(MeshFormats, ReadPointsOfTexts) {
                 .points,
             points);
   EXPECT_TRUE(read_mesh(path("a.csv")).triangles.empty());
+  // A line of quotes has no field. It made the program crash.
+  expect_refusal("a.csv", "\"\n1.5,-2,3\n", "line 1 lacks the coordinate x of a point");
+  expect_refusal("a.xyz", " \"\" \n1.5 -2 3\n", "line 1 lacks the coordinate x of a point");
 }
 
 TEST_F(MeshFormats, ReadPointsOfTheirLibrary) {

@@ -64,6 +64,7 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
     }
     begin = k + 1;
   }
+  if (fields.empty()) fields.emplace_back();
 }
 
 bool names_separator(std::string_view line) { return lower_case(line.substr(0, 4)) == "sep="; }

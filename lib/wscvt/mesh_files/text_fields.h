@@ -64,7 +64,7 @@ char separator_in(std::string_view line, std::string_view separators);
 
 /// Splits a line at its semicolons, or else its commas, or else its blanks and tabs; none within
 /// quotes. Fields have neither quotes nor blanks at their ends. One may be empty, but not between
-/// blanks.
+/// blanks: there only that of a line without any.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
 /// Returns whether a line names the separator of those below, "sep=;", as spreadsheets write it
