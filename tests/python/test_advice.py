@@ -246,7 +246,7 @@ ALL = [
     Advice("not dark", npy("v.npy", lambda: grey(np.minimum(balls(TWO), 1))), "segment v.npy l.nrrd --dark",
            "Leave --dark out", "segment v.npy l.nrrd", "2 grains"),
     Advice("phases", npy("v.npy", lambda: grey(balls([(8, 12, 12, 6), (32, 12, 12, 6), (20, 12, 12, 5)], labels=(1, 1, 2)), (60, 110, 235))),
-           "segment v.npy l.nrrd", "3 peaks.*give (--phases 1)", "segment v.npy l.nrrd \\1", "1 grain,", gone="x^"),
+           "segment v.npy l.nrrd", "3 peaks.*give their number, such as (--phases 1)", "segment v.npy l.nrrd \\1", "1 grain,", gone="x^"),
     Advice("too many phases", npy("v.npy", lambda: grey(np.minimum(balls(TWO), 1))), "segment v.npy l.nrrd --phases 3",
            "at most (1) can be material.*lower --phases", "segment v.npy l.nrrd --phases \\1", "2 grains"),
     Advice("phases of a mask", npy("v.npy", lambda: np.minimum(balls(TWO), 1)), "segment v.npy l.nrrd --phases 2",

@@ -90,7 +90,7 @@ TEST(OnScan, GentleAndBentGrainsGoTheSameWay) {
     grains.emplace_back(name, body(name));
   }
   for (const auto& [name, scan] : grains) {
-    const RemeshResult result = remesh(scan, options_of(1000), Execution(1));
+    const RemeshResult result = remesh(scan, options_of(400), Execution(1));
     expect_valid(result, 400, 0, name);
     EXPECT_EQ(report_of(result).nodes.self_intersections, 0U) << name;
     // Rounding of sums over 800 triangles, and of the way to units of the radius and back.
@@ -126,7 +126,7 @@ TEST(OnScan, ALargerEdgeRatioIsCloserToTheScan) {
 
 TEST(OnScan, ContactFitKeepsTheMeshAndLiesFartherOut) {
   for (const char* name : {"hook", "mushroom"}) {
-    const RemeshResult fitted = remesh(body(name), options_of(1000), Execution(2));
+    const RemeshResult fitted = remesh(body(name), options_of(400), Execution(2));
     const RemeshResult contact =
         remesh(body(name), options_of(400, placed(ScanPlacement::ContactFit)), Execution(2));
     expect_valid(contact, 400, 0, name);
@@ -202,7 +202,7 @@ TEST(OnScan, HandlesAreKeptOrRefusedWhereAskedFor) {
 
 TEST(OnScan, ARingStaysARing) {
   const IndexedMesh ring = test::torus(1.0, 0.4, 24);
-  const RemeshResult result = remesh(ring, options_of(1000), Execution(1));
+  const RemeshResult result = remesh(ring, options_of(400), Execution(1));
   expect_valid(result, 400, 1, "a ring");
   EXPECT_EQ(report_of(result).handles.kept, 1);
   EXPECT_NEAR(result.remesh.volume / result.scan.volume, 1.0, 1e-11);

@@ -183,6 +183,25 @@ TEST(Envelope, LeavesOutFacesWithoutAPlaceOrAnArea) {
   EXPECT_EQ(shrink_wrap.points, shrink_wrap_of(ball, opening(10.0), Execution(1)).points);
 }
 
+// Three points on a line but for rounding make a face that is not flat for exact arithmetic, whose
+// normal is 0 in doubles. CGAL divided by it: the program ended by SIGFPE, or never.
+TEST(Envelope, LeavesOutFacesWithoutANormal) {
+  IndexedMesh slivers = test::sphere(3);
+  std::mt19937_64 engine(test::announced(4));
+  std::uniform_real_distribution<double> place(-1.2, 1.2);
+  std::uniform_real_distribution<double> part(0.1, 0.9);
+  for (int k = 0; k < 400; ++k) {
+    const Vector3 from(place(engine), place(engine), place(engine));
+    const Vector3 to(place(engine), place(engine), place(engine));
+    const auto first = static_cast<std::int32_t>(slivers.points.size());
+    for (const Vector3& p : {from, to, Vector3(from + part(engine) * (to - from))}) {
+      slivers.points.push_back(p);
+    }
+    slivers.triangles.push_back({first, first + 1, first + 2});
+  }
+  EXPECT_GT(shrink_wrap_of(slivers, opening(6.0), Execution(1)).points.size(), 100U);
+}
+
 TEST(Envelope, ClosesTunnelsThatAreNarrowerAndKeepsWiderOnes) {
   // Drilled 0.4 wide, with a diagonal of about 3.46.
   const IndexedMesh drilled = test::ball_with_a_tunnel();

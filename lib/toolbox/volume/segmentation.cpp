@@ -483,6 +483,27 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   result.brightest_space = values.base + values.step * brightest;
 }
 
+/// Notes the layers of the grains, or those that are too `thin` for lines across the surface.
+void note_layers(EdgeLayers layers, const std::vector<EdgeSteps>& thin, const ShortGrey& values,
+                 Segmentation& result) {
+  result.has_fringes = layers.has_fringes;
+  if (result.has_fringes) {
+    // The rims beside grains fill the void where grains are close.
+    result.darkest_space = result.brightest_space = 0.0;
+    return;
+  }
+  result.steps = std::move(layers.steps);
+  const bool has_layer =
+      std::any_of(result.steps.begin(), result.steps.end(),
+                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
+  if (!has_layer) result.steps.insert(result.steps.end(), thin.begin(), thin.end());
+  for (EdgeSteps& steps : result.steps) {
+    for (double* value : {&steps.space, &steps.layer, &steps.inside}) {
+      *value = values.base + values.step * *value;
+    }
+  }
+}
+
 /// Returns the material among grey values; sets `threshold` to the computed one if it was not
 /// given, and the peaks of `result`. `left_out`: what was not scanned, to which the wall of a
 /// container is added.
@@ -552,20 +573,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       layers, execution.part(0.55, 1.0));
-  result.steps = std::move(layers.steps);
-  result.has_fringes = layers.has_fringes;
-  if (result.has_fringes) {
-    // The rims beside grains fill the void where grains are close.
-    result.darkest_space = result.brightest_space = 0.0;
-    return mask;
-  }
-  const bool has_layer =
-      std::any_of(result.steps.begin(), result.steps.end(),
-                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
-  if (!has_layer) result.steps.insert(result.steps.end(), thin.begin(), thin.end());
-  for (EdgeSteps& steps : result.steps) {
-    for (double* value : {&steps.space, &steps.layer, &steps.inside}) *value = base + step * *value;
-  }
+  note_layers(std::move(layers), thin, values, result);
   return mask;
 }
 

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -199,6 +200,18 @@ Wrap alpha_wrap(Oracle oracle, double alpha, double offset, const Execution& exe
   return wrap;
 }
 
+/// Whether CGAL can project points onto a face. It leaves out faces without area by exact
+/// arithmetic, but divides by a normal of doubles. Where rounding makes that 0, the result is no
+/// number, which ends the program (SIGFPE) in the exact arithmetic after it.
+bool has_normal(const std::vector<Kernel::Point_3>& points, const Triangle& t) {
+  constexpr double rounding = 1e-15;
+  const Kernel::Vector_3 one = points[t[0]] - points[t[2]];
+  const Kernel::Vector_3 other = points[t[1]] - points[t[2]];
+  const double size = std::max(one.squared_length(), other.squared_length());
+  const double square = CGAL::cross_product(one, other).squared_length();
+  return square >= std::numeric_limits<double>::min() && std::sqrt(square) > rounding * size;
+}
+
 FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
                      const std::vector<Triangle>& triangles, double alpha,
                      const Execution& execution) {
@@ -209,6 +222,7 @@ FaceOracle oracle_of(const std::vector<Kernel::Point_3>& points,
     faces.clear();
     for (std::size_t f = begin; f < std::min(triangles.size(), begin + faces_a_report); ++f) {
       const Triangle& t = triangles[f];
+      if (!has_normal(points, t)) continue;
       faces.push_back({static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
                        static_cast<std::size_t>(t[2])});
     }
