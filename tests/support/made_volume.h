@@ -67,6 +67,18 @@ struct MadeVolume {
     });
   }
 
+  /// Gives each voxel the value at its place, counted from 0, without decimals.
+  template <class ValueAt>
+  void set(const ValueAt& value_at) {
+    for (int z = 0; z < counts[2]; ++z) {
+      for (int y = 0; y < counts[1]; ++y) {
+        for (int x = 0; x < counts[0]; ++x) {
+          at(x, y, z) = static_cast<std::uint32_t>(value_at(Vector3(x, y, z)));
+        }
+      }
+    }
+  }
+
   /// The labels as whole numbers of a type.
   template <class Value>
   std::string bytes(bool big_endian = false) const {
