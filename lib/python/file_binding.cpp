@@ -47,15 +47,6 @@ void bind_files(py::module_& module) {
        ", also packed by gzip. Nothing is repaired. In STL each corner is a vertex. The last three "
        "formats have no faces. Problems of a file are UserWarnings.")
           .c_str());
-  module.def(
-      "write_mesh",
-      [](const std::filesystem::path& path, const Points& vertices, const py::object& faces) {
-        write_mesh(mesh_of(vertices, faces), path.string());
-      },
-      py::arg("path"), py::arg("vertices"), py::arg("faces"),
-      ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) +
-       ", completely or not at all.")
-          .c_str());
 }
 
 namespace {
@@ -190,14 +181,18 @@ void bind_attributes(py::module_& module) {
              "Returns two dictionaries with the same names; whole numbers stay whole, of up to 32 "
              "bits.");
   module.def(
-      "write_attributes",
-      [](const std::string& path, const Points& vertices, const py::object& faces,
+      "write_mesh",
+      [](const std::filesystem::path& path, const Points& vertices, const py::object& faces,
          const py::dict& of_vertices, const py::dict& of_faces) {
         write_mesh(mesh_of(vertices, faces), {attributes_of(of_vertices), attributes_of(of_faces)},
-                   path);
+                   path.string());
       },
       py::arg("path"), py::arg("vertices"), py::arg("faces"), py::arg("vertex_attributes"),
-      py::arg("face_attributes"));
+      py::arg("face_attributes"),
+      ("Writes a file by its ending, " + mesh_extensions(MeshUse::Write) +
+       ", completely or not at all. Attributes are dictionaries of arrays (n,), a number for each "
+       "vertex or face. Only PLY keeps them.")
+          .c_str());
 }
 
 }  // namespace wscvt::python

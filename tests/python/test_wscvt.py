@@ -225,6 +225,13 @@ def test_what_is_refused(scan):
             (lambda: wscvt.remesh(vertices, faces, threads=-1), "invalid-input", "thread"),
             (lambda: wscvt.remesh(masked(vertices), faces), "invalid-input", "vertices.filled(VALUE)"),
             (lambda: wscvt.extract(masked(np.ones((5, 5, 5), np.uint8))), "invalid-input", "labels.filled(VALUE)"),
+            (lambda: wscvt.write_mesh("m.ply", masked(vertices), faces), "invalid-input", "vertices.filled"),
+            (lambda: wscvt.write_mesh("m.ply", *scan, vertex_attributes={"q": masked(vertices[:, 0])}),
+             "invalid-input", "vertex_attributes.filled(VALUE)"),
+            (lambda: wscvt.carry_attributes((masked(vertices), faces), scan, {"q": vertices[:, 0]}),
+             "invalid-input", "scan.filled(VALUE)"),
+            (lambda: wscvt.templates(masked(vertices), np.ones(len(vertices)), 5), "invalid-input",
+             "descriptors.filled"),
             (lambda: wscvt.remesh(MESHES, 60), "invalid-input", "wscvt.batch"),
             (lambda: wscvt.tetrahedra([]), "invalid-input", "no bodies"),
             (lambda: wscvt.extract(np.uint8(3)), "invalid-input", "one number"),
@@ -243,6 +250,7 @@ def test_what_is_refused(scan):
                        (lambda: wscvt.remesh(vertices, faces, nodes=10**30), "4 to 1000000"),
                        (lambda: wscvt.remesh(vertices, faces.astype(float)), "whole numbers"),
                        (lambda: wscvt.batch([scan], 60, output="out"), "grains are files"),
+                       (lambda: wscvt.write_mesh("m.ply", object()), "wrong type: .*vertices is object"),
                        (lambda: wscvt.remesh(vertices, faces, weighting=3), "wscvt-c")]:
         with pytest.raises(TypeError, match=part):
             call()

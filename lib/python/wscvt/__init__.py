@@ -34,6 +34,14 @@ __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "ba
            "sample", "segment", "signed_distances", "templates", "tetrahedra", "write_mesh"]
 
 
+def _refuse_masked(argument, value):
+    """Raises InputError for an array with a mask, also in a pair or a dictionary."""
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, tuple) else (value,)
+    if any(numpy.ma.is_masked(part) for part in parts):
+        raise InputError(f"The argument {argument} is a masked array, whose mask would be lost. Give "
+                         f"{argument}.filled(VALUE), with the value for what is masked.")
+
+
 def _call(function, /, *arguments, **options):
     """Calls a function of _wscvt. pybind11's own message about a wrong argument prints whole arrays."""
     name = function.__name__.strip("_").replace("_files", "")
@@ -43,9 +51,7 @@ def _call(function, /, *arguments, **options):
         if option not in known and "**kwargs" not in signature:
             raise TypeError(f"There is no option {option} of {name}. help(wscvt.{name}) lists the options.")
     for argument, value in [*zip(known, arguments), *options.items()]:
-        if numpy.ma.is_masked(value):
-            raise InputError(f"The argument {argument} is a masked array, whose mask would be lost. Give "
-                             f"{argument}.filled(VALUE), with the value for what is masked.")
+        _refuse_masked(argument, value)
     try:
         return function(*arguments, **options)
     except TypeError as error:
@@ -599,11 +605,7 @@ def read_mesh(path):
 
 
 def write_mesh(path, vertices, faces=None, *, vertex_attributes=None, face_attributes=None):
-    arrays = _arrays(vertices, faces)
-    if vertex_attributes or face_attributes:
-        _wscvt.write_attributes(os.fspath(path), *arrays, vertex_attributes or {}, face_attributes or {})
-    else:
-        _wscvt.write_mesh(path, *arrays)
+    _call(_wscvt.write_mesh, path, *_arrays(vertices, faces), vertex_attributes or {}, face_attributes or {})
 
 
 def read_attributes(path):
@@ -629,7 +631,8 @@ def carry_attributes(scan, mesh, vertex_attributes=None, face_attributes=None, *
     """
     if vertex_attributes is None and face_attributes is None:
         return _wscvt.carry_attributes_of_file(os.fspath(scan), _arrays(mesh), threads=threads)
-    return _wscvt.carry_attributes(_arrays(scan), _arrays(mesh), vertex_attributes or {}, face_attributes or {}, threads=threads)
+    return _call(_wscvt.carry_attributes, _arrays(scan), _arrays(mesh), vertex_attributes or {},
+                 face_attributes or {}, threads=threads)
 
 
 for _function in (read_mesh, write_mesh):
@@ -639,6 +642,7 @@ del _function
 
 def _matrix(descriptors):
     """Returns an array (n, d), also from the fields of a structured array."""
+    _refuse_masked("descriptors", descriptors)
     descriptors = numpy.asarray(descriptors)
     if descriptors.dtype.names:
         descriptors = numpy.column_stack([descriptors[name] for name in descriptors.dtype.names])
