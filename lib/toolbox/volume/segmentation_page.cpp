@@ -356,7 +356,7 @@ void add_ends(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
                      numbers.front() + "] = scan[" + std::to_string(lost.front() - 1) + "].");
   }
   // At most .11 in 20 packings that were separated rightly, .2 and more of needles, blades and
-  // flakes of 2 to 7 voxels, .5 of porous grains.
+  // flakes of 2 to 7 voxels, .5 of porous grains (tests/figures/study/scan_kinds.py has some).
   constexpr double many = 0.2;
   if (segmentation.wide_neck_fraction > many) {
     doubts.push_back(

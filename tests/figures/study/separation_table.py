@@ -45,14 +45,19 @@ class Long:
         return numpy.linalg.norm(d @ self.turns[k] / (self.axes * self.r[k]), axis=-1) - 1
 
 
-def scene(grains, noise, hardened):
-    """Grey values, and the grain of each voxel (0: none)."""
-    h = 2 * grains.r.mean() / ACROSS
+def shares(grains, across=ACROSS):
+    """The share of grains in each voxel, and the grain at its middle (0: none)."""
+    h = 2 * grains.r.mean() / across
     labels, _ = labels_of(grains, h / PARTS, numpy.zeros(3), PARTS)
     n = numpy.array(labels.shape) // PARTS
     cells = labels.reshape(n[0], PARTS, n[1], PARTS, n[2], PARTS)
-    share = (cells > 0).astype(numpy.float32).mean((1, 3, 5))
-    truth = cells[:, PARTS // 2, :, PARTS // 2, :, PARTS // 2]
+    return (cells > 0).astype(numpy.float32).mean((1, 3, 5)), cells[:, PARTS // 2, :, PARTS // 2, :, PARTS // 2]
+
+
+def scene(grains, noise, hardened):
+    """Grey values, and the grain of each voxel (0: none)."""
+    share, truth = shares(grains)
+    n = numpy.array(share.shape)
     grey = blurred(share, 0.8)
     if hardened:
         x, y = (numpy.indices(n[:2]) + 0.5) / n[:2, None, None] * 2 - 1
