@@ -744,7 +744,10 @@ def test_extract_of_an_array_takes_and_refuses_what_the_program_does(case, tmp_p
         assert taken in str(error.value)
         assert len(wscvt.extract(eval(taken), smallest=1)) == 2
     else:
-        for text in re.findall(r"holds \S+ at the voxel|0 on|whole numbers|one image|64 bits", program.stderr):
+        said = re.findall(r"holds \S+ at the voxel|0 on|whole numbers|one image|64 bits|grey values as float32",
+                          program.stderr)
+        assert said, program.stderr
+        for text in said:
             assert text in str(error.value)
 
 
