@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/endian/conversion.hpp>
 #include <filesystem>
@@ -190,7 +191,7 @@ TEST_F(MeshFormats, OfFiniteElementsOfOthersGiveTheirFaces) {
          "0 1 15 1\n1 10\n2 1 3 1\n2 10 20 30 40\n2 1 2 1\n3 10 40 20\n$EndElements\n");
   expect("others.inp",
          "*Heading\n** made\n*Node, nset=all\n10, 0, 0, 0\n20, 1., 0., 0.\n30, 1, 1, 0\n"
-         "40, 0, 1, 5e-1,\n*Element, type=S4R, elset=a\n1, 10, 20, 30, 40\n"
+         "40, 0, 1, 5e-1,\n*Element, type=CAX4P, elset=a\n1, 10, 20, 30, 40\n"
          "*Element, type=T3D2\n2, 10, 20\n*Element, TYPE = STRI3\n3, 10, 40, 20\n"
          "*Nset, nset=b\n10, 20\n");
   expect("grid.vtu",
@@ -393,6 +394,121 @@ TEST_F(MeshFormats, ReadsEveryFormOfLegacyVtk) {
                                      "2 0 1\n3 3 2 1\n4 0 1 3 2\nCELL_TYPES 4\n9\n3\n5\n6\n"));
 }
 
+struct GridCell {
+  int type;  ///< VTK's number
+  std::vector<int> nodes;
+};
+
+/// An unstructured grid, as legacy VTK and as XML: the corners of a unit cube, four points far off
+/// it, and cells with the labels 100 and 101 in turn.
+std::array<std::string, 2> texts_of_grid(const std::vector<GridCell>& cells) {
+  const std::string points =
+      "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1 9 9 9 9 8 9 8 9 9 9 9 8 ";
+  std::string lists;
+  std::string corners;
+  std::string ends;
+  std::string types;
+  std::string labels;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    lists += std::to_string(cells[k].nodes.size());
+    for (const int node : cells[k].nodes) {
+      lists += " " + std::to_string(node);
+      corners += std::to_string(node) + " ";
+    }
+    lists += "\n";
+    count += cells[k].nodes.size();
+    ends += std::to_string(count) + " ";
+    types += std::to_string(cells[k].type) + " ";
+    labels += std::to_string(100 + k % 2) + " ";
+  }
+  const std::string number = std::to_string(cells.size());
+  const auto array = [](const std::string& name, const std::string& type,
+                        const std::string& numbers) {
+    return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" format=\"ascii\">" + numbers +
+           "</DataArray>";
+  };
+  return {vtk_head + "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 float\n" + points + "\nCELLS " +
+              number + " " + std::to_string(count + cells.size()) + "\n" + lists + "CELL_TYPES " +
+              number + "\n" + types + "\nCELL_DATA " + number +
+              "\nSCALARS label int\nLOOKUP_TABLE default\n" + labels + "\n",
+          "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"12\" "
+          "NumberOfCells=\"" +
+              number + "\"><Points>" + array("Points", "Float64", points) + "</Points><Cells>" +
+              array("connectivity", "Int64", corners) + array("offsets", "Int64", ends) +
+              array("types", "UInt8", types) + "</Cells><CellData>" +
+              array("label", "Int32", labels) + "</CellData></Piece></UnstructuredGrid></VTKFile>"};
+}
+
+// The faces of a box in every kind that VTK has for surfaces, among cells that are none: a vertex,
+// a line, a body. Nodes behind the corners lie far off the box.
+TEST_F(MeshFormats, ReadEveryKindOfSurfaceCellOfAGrid) {
+  const std::vector<std::vector<int>> sides = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                               {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  const auto box_of = [&](int type, std::size_t corners, std::size_t more, bool in_rows) {
+    std::vector<GridCell> cells = {{1, {0}}, {3, {0, 1}}};
+    for (const std::vector<int>& side : sides) {
+      for (std::size_t k = 2; k < 4; ++k) {
+        std::vector<int> nodes =
+            corners == 4 ? side : std::vector<int>{side[0], side[k - 1], side[k]};
+        if (in_rows) std::swap(nodes[2], nodes[3]);
+        for (std::size_t m = 0; m < more; ++m) nodes.push_back(static_cast<int>(8 + m));
+        if (corners == 3 || k == 3) cells.push_back({type, nodes});
+      }
+      if (cells.size() < 5) cells.push_back({12, {0, 1, 2, 3, 4, 5, 6, 7}});
+    }
+    return cells;
+  };
+  struct Kind {
+    int type;
+    std::size_t corners;
+    std::size_t more;
+    bool in_rows;
+  };
+  for (const Kind& kind : {Kind{5, 3, 0, false},
+                           {6, 3, 0, false},
+                           {6, 4, 0, true},
+                           {7, 4, 0, false},
+                           {8, 4, 0, true},
+                           {9, 4, 0, false},
+                           {22, 3, 3, false},
+                           {23, 4, 4, false},
+                           {28, 4, 4, false},
+                           {30, 4, 2, false},
+                           {34, 3, 4, false},
+                           {36, 4, 4, false},
+                           {69, 3, 3, false},
+                           {70, 4, 4, false},
+                           {76, 3, 3, false},
+                           {77, 4, 4, false}}) {
+    const std::vector<GridCell> cells = box_of(kind.type, kind.corners, kind.more, kind.in_rows);
+    const std::array<std::string, 2> texts = texts_of_grid(cells);
+    for (const bool is_xml : {false, true}) {
+      SCOPED_TRACE("type " + std::to_string(kind.type) + (is_xml ? " in a .vtu" : " in a .vtk"));
+      const MeshFile read = read_mesh_file(file(is_xml ? "a.vtu" : "a.vtk", texts[is_xml ? 1 : 0]));
+      ASSERT_EQ(read.mesh.triangles.size(), 12U);
+      EXPECT_NEAR(volume_of(read.mesh, Execution()), 1.0, 1e-12);
+      ASSERT_EQ(read.named_faces.size(), 1U);
+      for (std::size_t t = 0; t < 12; ++t) {
+        const auto name = static_cast<std::size_t>(read.named_faces[0].of_face[t]);
+        const std::size_t label = std::stoul(read.named_faces[0].names[name]);
+        std::size_t found = 0;  // cells of this label that have its three corners
+        for (std::size_t k = label - 100; k < cells.size(); k += 2) {
+          const std::vector<int>& nodes = cells[k].nodes;
+          const auto is_corner = [&](std::int32_t corner) {
+            return std::count(nodes.begin(), nodes.end(), corner) == 1;
+          };
+          const Triangle& triangle = read.mesh.triangles[t];
+          found += cells[k].type != 12 && std::all_of(triangle.begin(), triangle.end(), is_corner)
+                       ? 1U
+                       : 0U;
+        }
+        EXPECT_EQ(found, 1U);
+      }
+    }
+  }
+}
+
 TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
   expect_refusal("a.vtk", "<html>", "is not a VTK file");
   expect_refusal("a.vtk", vtk_head + "ASCII\nDATASET STRUCTURED_POINTS\n", "structured_points");
@@ -412,7 +528,7 @@ TEST_F(MeshFormats, RefuseWhatIsNoMeshOrIsCut) {
                  vtk_head +
                      "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n1 2 3 4 5 6 7 8 "
                      "9 1 2 3\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
-                 "cells of type 10");
+                 "no triangles or polygons");
   expect_refusal("a.vtk",
                  vtk_head +
                      "ASCII\nDATASET POLYDATA\nPOINTS 1 float\n1 2 3\nPOLYGONS 2 3\n"

@@ -304,9 +304,10 @@ std::vector<AbaqusOption> options_of(const std::vector<std::string_view>& fields
 }
 
 /// Returns the corners of a shell, membrane, rigid or plane element by its type, such as "S3R",
-/// "STRI65", "M3D4" or "CPS6M"; 0 for others.
+/// "STRI65", "M3D4" or "CPS6M", or one with an axis, as meshio names quadrilaterals ("CAX4P"); 0
+/// for others.
 std::size_t corners_of_abaqus(const std::string& type) {
-  for (const char* family : {"stri", "sfm3d", "m3d", "r3d", "ds", "cps", "cpe", "s"}) {
+  for (const char* family : {"stri", "sfm3d", "m3d", "r3d", "ds", "cps", "cpe", "cax", "s"}) {
     if (type.rfind(family, 0) != 0) continue;
     const std::string rest = type.substr(std::string_view(family).size());
     if (rest.empty() || rest[0] < '3' || rest[0] > '9') continue;

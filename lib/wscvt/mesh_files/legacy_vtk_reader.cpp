@@ -58,16 +58,19 @@ class LegacyVtkReader {
       const std::optional<std::string_view> line = reader_.filled_line();
       goes_on = line && read_section(std::string(*line));
     }
-    keep_surface_cells();
-    std::vector<std::size_t> cells;
-    std::size_t cell = other_cells_;  // VTK numbers vertices and lines first, strips last
-    for (const bool strips : {false, true}) {
-      const VtkPolygons& list = strips ? strips_ : polygons_;
-      add_polygons(list, strips, 0, reader_, mesh_, cell, cells);
-      cell += list.ends.size();
-    }
     if (mesh_.points.empty()) reader_.fail("holds no points");
-    if (cell_types_.empty()) read_labels(cells, names);
+    std::vector<std::size_t> cells;
+    if (is_grid_) {
+      add_surface_cells(polygons_, cell_types_, 0, reader_, mesh_, cells);
+    } else {
+      const std::size_t others = other_cells_;  // VTK numbers vertices and lines first, strips last
+      add_polygons(polygons_, false, 0, reader_, mesh_, others, cells);
+      add_polygons(strips_, true, 0, reader_, mesh_, others + polygons_.ends.size(), cells);
+    }
+    if (is_grid_ && mesh_.triangles.empty()) {
+      reader_.refuse("holds no triangles or polygons. Save the surface of the grain too.");
+    }
+    read_labels(cells, names);
     return std::move(mesh_);
   }
 
@@ -81,7 +84,8 @@ class LegacyVtkReader {
       skip_metadata();
     } else if (key == "dataset") {
       const std::string kind = lower_case(fields.next());
-      if (kind != "polydata" && kind != "unstructured_grid") {
+      is_grid_ = kind == "unstructured_grid";
+      if (kind != "polydata" && !is_grid_) {
         reader_.refuse("holds " + in_quotes(kind) +
                        ", not the polygons of a mesh. Save a surface as POLYDATA.");
       }
@@ -274,46 +278,13 @@ class LegacyVtkReader {
     }
   }
 
-  /// Keeps only the surface cells of an unstructured grid.
-  void keep_surface_cells() {
-    if (cell_types_.empty()) return;
-    if (cell_types_.size() != polygons_.ends.size()) {
-      reader_.fail("has different numbers of cells and cell types");
-    }
-    VtkPolygons kept;
-    std::int64_t begin = 0;
-    for (std::size_t k = 0; k < cell_types_.size(); ++k) {
-      const std::int64_t end = polygons_.ends[k];
-      // VTK's numbers for a triangle, a strip, a polygon and a quad; numbers below 5 are vertices
-      // and lines.
-      constexpr std::int64_t triangle = 5;
-      constexpr std::int64_t strip = 6;
-      constexpr std::int64_t polygon = 7;
-      constexpr std::int64_t quad = 9;
-      const std::int64_t type = cell_types_[k];
-      const bool is_face = type == triangle || type == polygon || type == quad;
-      if (end < begin || static_cast<std::uint64_t>(end) > polygons_.corners.size() ||
-          (type >= triangle && !is_face && type != strip)) {
-        reader_.refuse("holds cells of type " + std::to_string(type) +
-                       ", which are not faces. Save a surface as POLYDATA.");
-      }
-      if (is_face || type == strip) {
-        VtkPolygons& to = is_face ? kept : strips_;
-        to.corners.insert(to.corners.end(), polygons_.corners.begin() + begin,
-                          polygons_.corners.begin() + end);
-        to.ends.push_back(static_cast<std::int64_t>(to.corners.size()));
-      }
-      begin = end;
-    }
-    polygons_ = std::move(kept);
-  }
-
   [[noreturn]] void fail_cut() const {
     reader_.fail("has fewer numbers than it announces. It was cut off");
   }
 
   ByteReader& reader_;
   bool is_text_ = false;
+  bool is_grid_ = false;
   IndexedMesh mesh_;
   VtkPolygons polygons_;
   VtkPolygons strips_;

@@ -2,8 +2,10 @@
 #include "wscvt/mesh_files/reader_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace wscvt {
 
@@ -86,6 +88,76 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
     }
     cells.resize(mesh.triangles.size(), cell++);
     begin = end;
+  }
+}
+
+namespace {
+
+constexpr std::int64_t vtk_strip = 6;
+constexpr std::int64_t vtk_pixel = 8;
+
+/// Returns the number of corners of a cell with `nodes` nodes, which come first among them; 0 if it
+/// is no surface. The numbers of types are those of vtkCellType.h.
+std::int64_t surface_corners(std::int64_t type, std::int64_t nodes) {
+  switch (type) {
+    case 5:   // triangle
+    case 22:  // quadratic
+    case 34:  // biquadratic
+    case 69:  // of Lagrange
+    case 76:  // of Bezier
+      return std::min<std::int64_t>(3, nodes);
+    case vtk_strip:
+    case 7:  // polygon
+      return nodes;
+    case vtk_pixel:
+    case 9:   // quadrilateral
+    case 23:  // quadratic
+    case 28:  // biquadratic
+    case 30:  // quadratic along two edges
+    case 70:  // of Lagrange
+    case 77:  // of Bezier
+      return std::min<std::int64_t>(4, nodes);
+    case 36:  // polygon with a node on each edge
+      return nodes / 2;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
+void add_surface_cells(const VtkPolygons& grid, const std::vector<std::int64_t>& types,
+                       std::size_t first, const ByteReader& reader, IndexedMesh& mesh,
+                       std::vector<std::size_t>& cells) {
+  if (types.size() != grid.ends.size()) {
+    reader.fail("has " + std::to_string(types.size()) + " types of " +
+                std::to_string(grid.ends.size()) + " cells");
+  }
+  std::array<VtkPolygons, 2> surfaces;  // faces, and strips
+  std::array<std::vector<std::size_t>, 2> numbers;
+  std::int64_t begin = 0;
+  for (std::size_t k = 0; k < types.size(); ++k) {
+    const std::int64_t end = grid.ends[k];
+    if (end < begin || static_cast<std::uint64_t>(end) > grid.corners.size()) {
+      reader.fail("has cells whose corners do not follow each other");
+    }
+    const std::int64_t count = surface_corners(types[k], end - begin);
+    if (count > 0) {
+      VtkPolygons& to = surfaces[types[k] == vtk_strip ? 1 : 0];
+      const auto from = grid.corners.begin() + begin;
+      to.corners.insert(to.corners.end(), from, from + count);
+      // A pixel's corners are those of two rows, not a way around it.
+      if (types[k] == vtk_pixel && count == 4)
+        std::swap(*(to.corners.end() - 1), *(to.corners.end() - 2));
+      to.ends.push_back(static_cast<std::int64_t>(to.corners.size()));
+      numbers[types[k] == vtk_strip ? 1 : 0].push_back(k);
+    }
+    begin = end;
+  }
+  for (const std::size_t strips : {0, 1}) {
+    std::size_t t = cells.size();
+    add_polygons(surfaces[strips], strips == 1, first, reader, mesh, 0, cells);
+    for (; t < cells.size(); ++t) cells[t] = numbers[strips][cells[t]];
   }
 }
 

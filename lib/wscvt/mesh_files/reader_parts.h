@@ -73,6 +73,13 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
                   const ByteReader& reader, IndexedMesh& mesh, std::size_t cell,
                   std::vector<std::size_t>& cells);
 
+/// Adds the triangles of the surface cells of an unstructured grid, as add_polygons() does: of
+/// triangles, quadrilaterals, polygons and strips, of those of higher order by their corners.
+/// `types`: VTK's number of each cell's type. Leaves out vertices, lines and bodies.
+void add_surface_cells(const VtkPolygons& grid, const std::vector<std::int64_t>& types,
+                       std::size_t first, const ByteReader& reader, IndexedMesh& mesh,
+                       std::vector<std::size_t>& cells);
+
 /// Appends the values of cells, `width` for each, as far as there are any.
 void add_values_of_cells(const std::vector<double>& values, std::size_t width,
                          const std::vector<std::size_t>& cells, std::vector<double>& result);

@@ -62,8 +62,8 @@ void read_off(ByteReader& reader, MeshFile& file);
 void read_vtp(ByteReader& reader, MeshFile& file);
 
 /// Reads a mesh from a legacy VTK file (not XML), text or binary, of any version: polygonal data,
-/// or an unstructured grid of triangles, quads, polygons and strips. Of polygons also reads the
-/// labels, as read_vtp. Skips vertices, lines and other data. Throws also for grids of volumes.
+/// or an unstructured grid, of which it takes the surface cells. Reads the labels as read_vtp().
+/// Skips vertices, lines, bodies and other data.
 void read_legacy_vtk(ByteReader& reader, MeshFile& file);
 
 // Readers of finite-element meshes, as write_mesh writes them and as others do. They take triangles

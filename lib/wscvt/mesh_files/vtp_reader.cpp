@@ -120,6 +120,9 @@ class VtpReader {
     IndexedMesh mesh;
     for (const Piece& piece : pieces_) add(piece, mesh);
     if (mesh.points.empty()) reader_.fail("holds no points");
+    if (is_grid_ && mesh.triangles.empty()) {
+      reader_.refuse("holds no triangles or polygons. Save the surface of the grain too.");
+    }
     for (const auto& [name, labels] : labels_) {
       append_labels(labels, mesh.triangles.size(), names);
     }
@@ -243,7 +246,13 @@ class VtpReader {
                                  coordinates[3 * i + 2]);
       }
     }
-    if (is_grid_) return add_cells(piece, first, mesh, cells);
+    if (is_grid_ && count_in(piece, "NumberOfCells") == 0) return;
+    if (is_grid_) {
+      const VtkPolygons grid{numbers<std::int64_t>(piece, "Cells/connectivity"),
+                             numbers<std::int64_t>(piece, "Cells/offsets")};
+      return add_surface_cells(grid, numbers<std::int64_t>(piece, "Cells/types"), first, reader_,
+                               mesh, cells);
+    }
     std::size_t cell = count_in(piece, "NumberOfVerts") + count_in(piece, "NumberOfLines");
     // VTK numbers the polygons before the strips.
     for (const bool strips : {false, true}) {
@@ -259,41 +268,6 @@ class VtpReader {
       add_polygons(polygons, strips, first, reader_, mesh, cell, cells);
       cell += faces;
     }
-  }
-
-  /// Adds the triangles, quadrilaterals and polygons of an unstructured grid.
-  void add_cells(const Piece& piece, std::size_t first, IndexedMesh& mesh,
-                 std::vector<std::size_t>& cells) const {
-    if (count_in(piece, "NumberOfCells") == 0) return;
-    const std::vector<std::int64_t> corners = numbers<std::int64_t>(piece, "Cells/connectivity");
-    const std::vector<std::int64_t> ends = numbers<std::int64_t>(piece, "Cells/offsets");
-    const std::vector<std::int64_t> types = numbers<std::int64_t>(piece, "Cells/types");
-    if (types.size() != ends.size()) {
-      reader_.fail("has " + std::to_string(types.size()) + " types of " +
-                   std::to_string(ends.size()) + " cells");
-    }
-    VtkPolygons faces;
-    std::vector<std::size_t> of_face;
-    std::int64_t begin = 0;
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      if (ends[k] < begin || static_cast<std::uint64_t>(ends[k]) > corners.size()) fail_cut();
-      constexpr std::int64_t triangle = 5;
-      constexpr std::int64_t polygon = 7;
-      constexpr std::int64_t quadrilateral = 9;
-      if (types[k] == triangle || types[k] == polygon || types[k] == quadrilateral) {
-        faces.corners.insert(faces.corners.end(), corners.begin() + begin,
-                             corners.begin() + ends[k]);
-        faces.ends.push_back(static_cast<std::int64_t>(faces.corners.size()));
-        of_face.push_back(k);
-      }
-      begin = ends[k];
-    }
-    if (faces.ends.empty()) {
-      reader_.refuse("holds no triangles or polygons. Save the surface of the grain too.");
-    }
-    const std::size_t before = cells.size();
-    add_polygons(faces, false, first, reader_, mesh, 0, cells);
-    for (std::size_t t = before; t < cells.size(); ++t) cells[t] = of_face[cells[t]];
   }
 
   template <class Number>
