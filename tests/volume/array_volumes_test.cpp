@@ -442,6 +442,10 @@ TEST_F(ArrayVolumes, ReadsLegacyVtk) {
     expect_made_of("a.vtk", head("BINARY", "7 5 3") + "POINT_DATA 105\nSCALARS labels " + name +
                                 "\nLOOKUP_TABLE default\n" + bytes);
   }
+  // As VTK writes every array of 8 bits.
+  const std::string colours = "POINT_DATA 105\nCOLOR_SCALARS labels 1\n";
+  expect_made_of("a.vtk", head("BINARY", "7 5 3") + colours + made_.bytes<std::uint8_t>() + "\n");
+  expect_refused_of("a.vtk", head("ASCII", "7 5 3") + colours + "0.5", {"line 9", "BINARY"});
   // Several arrays, among them those of a field; text and numbers.
   std::string text;
   std::string twice;

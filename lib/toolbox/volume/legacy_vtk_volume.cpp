@@ -135,6 +135,16 @@ class VtkParser {
         file_->fail_line("does not name the table of colors, which follows scalars.");
       }
       add(array);
+    } else if (key == "color_scalars") {
+      // VTK writes every array of 8 bits so, in text by the 255th part.
+      if (header_.is_text) {
+        file_->fail_line("holds labels of 8 bits as shares of 255. Save the file as BINARY.");
+      }
+      VtkArray array;
+      array.name = fields.next();
+      array.type = "unsigned_char";
+      array.components = whole_number_of(fields.next(), *file_);
+      add(array);
     } else if (key == "field") {
       fields.next();
       const std::int64_t count = whole_number_of(fields.next(), *file_);

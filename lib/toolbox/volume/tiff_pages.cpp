@@ -94,10 +94,9 @@ TiffPage page_of(const TiffFile& file) {
   const bool is_small =
       format == SAMPLEFORMAT_UINT && samples == 1 && (bits == 1 || bits == 2 || bits == 4);
   if (samples < 1 || (!is_whole && !is_small && !is_float)) {
-    refuse_volume(file.path(), "has " + std::to_string(samples) + " numbers of " +
-                                   std::to_string(bits) +
-                                   " bits per voxel, of an unknown kind. Save labels as "
-                                   "whole numbers of 8, 16, 32 or 64 bits.");
+    refuse_volume(file.path(), "has numbers of " + std::to_string(bits) +
+                                   " bits of a kind that is not read. Save whole numbers of 8, "
+                                   "16, 32 or 64 bits, or grey values of 32 bits.");
   }
   page.bits = bits;
   page.type = {std::max(1, bits / 8), has_sign || is_float, is_float,

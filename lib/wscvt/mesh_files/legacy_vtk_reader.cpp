@@ -148,6 +148,14 @@ class LegacyVtkReader {
           if (!components.empty() && components != "1" && components != "2") return;
           reader_.filled_line();  // its table of colours
           take(numbers<double>(type, components == "2" ? 2 * data_count_ : data_count_));
+        } else if (key == "color_scalars") {
+          // VTK writes every array of 8 bits so, in text by the 255th part.
+          fields.next();
+          const std::size_t width = count_in(fields);
+          if (width > 4) return;
+          auto values = numbers<double>(Stored::Uint8, width * data_count_);
+          for (double& value : values) value = is_text_ ? std::round(255.0 * value) : value;
+          take(values);
         } else if (key == "field") {
           fields.next();
           const std::size_t arrays = count_in(fields);
