@@ -302,7 +302,7 @@ TEST_F(Tetrahedra, AreWrittenForVtkGmshAndAbaqus) {
   const std::size_t at = inp.find("*SURFACE, NAME=surface, TYPE=ELEMENT\n");
   ASSERT_NE(at, std::string::npos);
   EXPECT_TRUE(holds(inp, "*ELEMENT, TYPE=C3D4, ELSET=grain\n1, "));
-  EXPECT_TRUE(holds(inp, "GENERATE\n1, " + std::to_string(grain.points.size()) + "\n"));
+  EXPECT_TRUE(holds(inp, "GENERATE\n1, " + std::to_string(grain.points.size()) + ", 1\n"));
   std::istringstream rows(inp.substr(inp.find('\n', at) + 1));
   // Nodes of the faces S1 to S4, from the manuals of Abaqus and CalculiX.
   const std::vector<std::vector<std::size_t>> corners = {

@@ -117,7 +117,8 @@ std::string abaqus_text(const TetrahedralMesh& mesh) {
   }
   std::int32_t last = 0;
   for (const Triangle& t : mesh.surface.triangles) last = std::max({last, t[0], t[1], t[2]});
-  return text + "*NSET, NSET=surface_nodes, GENERATE\n1, " + std::to_string(last + 1) + "\n" +
+  // The step of 1 is the default, but meshio does not read the line without it.
+  return text + "*NSET, NSET=surface_nodes, GENERATE\n1, " + std::to_string(last + 1) + ", 1\n" +
          surface_rows(mesh);
 }
 
