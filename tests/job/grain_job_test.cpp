@@ -357,6 +357,47 @@ TEST_F(Job, TakesNoRowsOfPartsThatAreOlderThanTheirScans) {
   EXPECT_GE(again, 2);
 }
 
+TEST_F(Job, MakesLostFilesOfItsPartsAgain) {
+  std::atomic<int> made{0};
+  const auto run = [&](int index) {
+    GrainJob job = number_job("out");
+    if (index > 0) job.shard = {index, 2};
+    made = 0;
+    job.make = [&made, make = job.make](GrainAtWork& grain) {
+      ++made;
+      return make(grain);
+    };
+    JoinedGrains part(job.shard);
+    part.add(std::make_unique<Points>(10));
+    run_job(job, part, {1});
+  };
+  run(1);
+  run(2);
+  fs::remove(folder_ / "out/grain3.txt");
+  write_file((folder_ / "out/grain4.txt").string(), "");
+  run(0);
+  EXPECT_EQ(made, 2);
+  EXPECT_EQ(content("out/grain3.txt"), "3");
+  EXPECT_EQ(content("out/grain4.txt"), "4");
+}
+
+TEST_F(Job, ThatIsNotKeptMakesLostFilesAgain) {
+  std::atomic<int> made{0};
+  GrainJob job = number_job("out");
+  job.is_kept = false;
+  job.make = [&made, make = job.make](GrainAtWork& grain) {
+    ++made;
+    return make(grain);
+  };
+  Points grains(20);
+  JobHost host{1};
+  host.is_cancelled = [&] { return made >= 12; };
+  ASSERT_TRUE(run_job(job, grains, host).was_cancelled());
+  ASSERT_TRUE(fs::remove(folder_ / "out/grain2.txt"));
+  EXPECT_EQ(run_job(job, grains, {1}).done, 20U);
+  EXPECT_EQ(content("out/grain2.txt"), "2");
+}
+
 TEST_F(Job, PartsAreTheWhole) {
   Points grains(40);
   run_job(number_job("whole"), grains, {2});

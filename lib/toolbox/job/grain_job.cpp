@@ -172,18 +172,24 @@ class ScanTimes {
     }
   }
 
-  /// Whether the file is older than the scan of the grain.
-  bool is_older(std::size_t grain, const std::string& file) const {
-    std::error_code missing;
-    const fs::file_time_type written = fs::last_write_time(file, missing);
-    return !missing && written < times_[grain];
-  }
-
   /// Whether the file is missing, empty, or older than the scan of the grain.
   bool is_old(std::size_t grain, const std::string& file) const {
     std::error_code missing;
     const std::uintmax_t size = fs::file_size(file, missing);
-    return missing || size == 0 || is_older(grain, file);
+    if (missing || size == 0) return true;
+    const fs::file_time_type written = fs::last_write_time(file, missing);
+    return missing || written < times_[grain];
+  }
+
+  /// Whether one of the files that the job has made of the grain is old or cut.
+  bool has_lost(const GrainJob& job, const std::vector<JobFolder>& folders, std::size_t grain,
+                const std::string& name) const {
+    return std::any_of(folders.begin(), folders.end(), [&](const JobFolder& folder) {
+      const std::vector<std::string> files = files_of(job, folder, name);
+      return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+        return is_old(grain, file) || is_cut(file);
+      });
+    });
   }
 
  private:
@@ -286,17 +292,15 @@ class PartRows {
 class JobTables {
  public:
   /// Opens or creates the tables and cuts all to the length of the shortest, because a killed job
-  /// may have added a row to only some of them. With `scans`, also cuts them at the first grain
-  /// one of whose files is missing, empty, cut or older than its scan, so that it is made again. A
-  /// grain that failed has no file: its table tells the time.
+  /// may have added a row to only some of them. Also cuts them at the first grain one of whose
+  /// files is missing, empty, cut or older than its scan, so that it is made again. A grain that
+  /// failed has no file: its table tells the time.
   JobTables(const std::vector<JobFolder>& folders, const GrainJob& job,
-            const std::vector<std::string>& grains, const ScanTimes* scans)
+            const std::vector<std::string>& grains, const ScanTimes& scans)
       : rows_(grains.size()) {
     const std::string first = folders.front().file(job.tables.front().name, ".csv");
     std::vector<bool> is_old_failure(grains.size(), false);  // opening a table may change its time
-    for (std::size_t k = 0; scans != nullptr && k < grains.size(); ++k) {
-      is_old_failure[k] = scans->is_old(k, first);
-    }
+    for (std::size_t k = 0; k < grains.size(); ++k) is_old_failure[k] = scans.is_old(k, first);
     for (const JobFolder& folder : folders) {
       for (const JobTable& table : job.tables) {
         tables_.push_back(
@@ -304,18 +308,11 @@ class JobTables {
         rows_ = std::min(rows_, tables_.back()->rows());
       }
     }
-    for (std::size_t k = 0; scans != nullptr && k < rows_; ++k) {
-      const auto is_lost = [&](const std::string& file) {
-        return scans->is_old(k, file) || is_cut(file);
-      };
-      const auto has_lost = [&](const JobFolder& folder) {
-        const std::vector<std::string> files = files_of(job, folder, grains[k]);
-        return std::any_of(files.begin(), files.end(), is_lost);
-      };
-      const bool is_old = tables_.front()->is_failed(k)
-                              ? is_old_failure[k]
-                              : std::any_of(folders.begin(), folders.end(), has_lost);
-      if (is_old) rows_ = k;
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const bool is_lost = tables_.front()->is_failed(k)
+                               ? is_old_failure[k]
+                               : scans.has_lost(job, folders, k, grains[k]);
+      if (is_lost) rows_ = k;
     }
     for (const auto& table : tables_) table->keep(rows_);
   }
@@ -418,7 +415,7 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
     }
   }
   const ScanTimes scans(grains);
-  JobTables tables(folders, job, names, job.is_kept ? &scans : nullptr);
+  JobTables tables(folders, job, names, scans);
   remove_partial_file(whole.file("call", ".json"));
   remove_parts(job, folders, names, tables.rows());
   if (job.has_census) {
@@ -430,9 +427,11 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
   std::vector<std::size_t> wanted;
   std::vector<bool> is_of_part(names.size(), false);
   for (std::size_t k = tables.rows(); k < names.size(); ++k) {
-    // A grain that failed has no file: the part's table tells the time.
-    is_of_part[k] = parts.has(names[k]) && !scans.is_older(k, folders.front().file_of(names[k])) &&
-                    !scans.is_older(k, parts.table(names[k]));
+    if (parts.has(names[k])) {
+      // A grain that failed has no file: the part's table tells the time.
+      is_of_part[k] = parts.row(names[k]).error.empty() ? !scans.has_lost(job, folders, k, names[k])
+                                                        : !scans.is_old(k, parts.table(names[k]));
+    }
     if (!is_of_part[k]) wanted.push_back(k);
   }
   grains.want(wanted);

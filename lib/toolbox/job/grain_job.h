@@ -28,9 +28,10 @@ struct JobTable {
 
 /// Work on each grain of a source: files for each grain, and tables with a row for each grain. The
 /// bytes of the files do not depend on the number of threads. A job that was interrupted continues
-/// after the last grain of its tables, or before the first grain whose file is missing, or older
-/// than its scan: a scan that was replaced is worked on again. The job of a whole sample takes over
-/// the rows of its parts, if they are in its folder, and makes only the other grains.
+/// after the last grain of its tables, or before the first grain one of whose files is missing,
+/// empty, cut, or older than its scan: a scan that was replaced is worked on again. The job of a
+/// whole sample takes over the rows of its parts, if they are in its folder with the files of the
+/// grains, and makes only the other grains.
 struct GrainJob {
   std::string folder;
   Shard shard;         ///< of which the source has the grains
