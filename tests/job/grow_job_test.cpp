@@ -231,6 +231,14 @@ TEST_F(GrownGrains, GoOnOnlyWithTheSameOptions) {
     EXPECT_TRUE(grow_grains(job, real(), grown_grids(), {1}).lines.empty());
     EXPECT_TRUE(calls.insert(content(call)).second) << content(call);
   }
+  // Scans that were replaced by others of the same names.
+  fs::remove_all(path("out"));
+  RealGrains replaced = real();
+  replaced.grains[4].radius *= 1.5;
+  GrowJob job = job_of(1);
+  job.shard = shard;
+  grow_grains(job, replaced, grown_grids(), {1});
+  EXPECT_TRUE(calls.insert(content(call)).second) << content(call);
 }
 
 TEST_F(GrownGrains, ReplaceNoRealGrain) {

@@ -104,9 +104,9 @@ class TemplatesOfASample : public test::FileFolder {
     return result;
   }
 
-  static MadeSample make(const TemplateJob& job) {
+  static MadeSample make(const TemplateJob& job, const DescribedSample& of = sample()) {
     return make_templates(
-        job, sample(), [](const std::string& file, const Execution&) { return body(file); }, {1});
+        job, of, [](const std::string& file, const Execution&) { return body(file); }, {1});
   }
 };
 
@@ -214,6 +214,14 @@ TEST_F(TemplatesOfASample, GoOnOnlyWithTheSameOptionsAndAsAWholeHaveTheFilesOfTh
     EXPECT_TRUE(calls.insert(content(call)).second) << content(call);
     EXPECT_EQ(content("out/sizes.csv"), "");
   }
+  // Scans that were replaced by others of the same names.
+  std::filesystem::remove_all(path("out"));
+  DescribedSample replaced = sample();
+  replaced.diameters[4] *= 1.5;
+  TemplateJob options = job();
+  options.shard = shard;
+  make(options, replaced);
+  EXPECT_TRUE(calls.insert(content(call)).second) << content(call);
   const std::string scan = file("out/template-03.ply", "a scan");
   EXPECT_ERROR(require_scans_kept(job(), {scan}), InvalidInput);
 }

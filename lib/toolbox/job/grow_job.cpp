@@ -208,6 +208,8 @@ GrainJob job_of(const GrowJob& options, const Growing& growing) {
   Json call = {{"format", "wscvt-grow"},       {"made_by", made_by()},   {"meshes", options.format},
                {"count", options.grains},      {"nodes", options.nodes}, {"degree", options.degree},
                {"seed", options.options.seed}, {"sample", growing.files}};
+  // Scans may be replaced by others of the same names.
+  for (const SampleGrain& real : growing.grower.sample()) call["radii"].push_back(real.radius);
   for (int k = 0; options.sizes && k <= 10; ++k) {
     call["sizes"].push_back(options.sizes->diameter(0.1 * k));
   }

@@ -124,6 +124,11 @@ std::unique_ptr<NamedGrains> grains_of(std::size_t count, NamedGrains::Read read
 GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
                 const SampleTemplates& templates) {
   GrainJob job{options.folder, options.shard, options.format};
+  // Of a sample that is measured anew, with the same names, other grains may be chosen.
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < templates.grains.size(); ++k) {
+    rows.push_back(template_row(sample, templates, k, "", ""));
+  }
   job.call = json_document({{"format", "wscvt-templates"},
                             {"made_by", made_by()},
                             {"meshes", options.format},
@@ -131,7 +136,8 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
                             {"nodes", options.nodes},
                             {"descriptors", options.descriptors},
                             {"seed", options.options.seed},
-                            {"sample", sample.files}});
+                            {"sample", sample.files},
+                            {"rows", rows}});
   job.tables = {{"templates", template_header(options)}};
   job.is_kept = false;
   job.make = [&](GrainAtWork& grain) -> std::vector<std::string> {
