@@ -323,22 +323,21 @@ TEST(SampleStatistics, IntervalsAreThoseOfEachDraw) {
     for (int draw = 0; draw < 602; ++draw) {
       times[static_cast<Eigen::Index>(random.below(602))] += 1.0;
     }
-    const Distribution by_number(values, times);
-    const Distribution by_mass(values, times.cwiseProduct(sample.masses));
-    const Distribution sizes(sample.sizes, times.cwiseProduct(sample.masses));
+    // A grain that came twice is two grains.
+    std::vector<Eigen::Index> grains;
+    for (Eigen::Index grain = 0; grain < 602; ++grain) {
+      grains.insert(grains.end(), static_cast<std::size_t>(times[grain]), grain);
+    }
+    const Eigen::VectorXd masses = sample.masses(grains);
+    const Distribution by_number(values(grains));
+    const Distribution by_mass(values(grains), masses);
+    const Distribution sizes(sample.sizes(grains), masses);
     drawn[0].push_back(by_number.quantile(0.9));
     drawn[1].push_back(by_mass.quantile(0.5));
     drawn[2].push_back(by_mass.mean());
     drawn[3].push_back(std::pow(sizes.quantile(0.3), 2) /
                        (sizes.quantile(0.1) * sizes.quantile(0.6)));
-    // A grain that came twice is two grains.
-    std::vector<double> repeated;
-    std::vector<double> masses;
-    for (Eigen::Index grain = 0; grain < 602; ++grain) {
-      repeated.insert(repeated.end(), static_cast<std::size_t>(times[grain]), values[grain]);
-      masses.insert(masses.end(), static_cast<std::size_t>(times[grain]), sample.masses[grain]);
-    }
-    drawn[4].push_back(test::PlainStatistics(vector_of(repeated), vector_of(masses)).deviation());
+    drawn[4].push_back(test::PlainStatistics(values(grains), masses).deviation());
   }
   const ColumnStatistics& column = s.columns[2];
   const Estimate estimates[] = {column.by_number.percent_90, column.by_mass.median,

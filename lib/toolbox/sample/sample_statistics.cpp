@@ -99,21 +99,21 @@ double Repeated::quantile(const Draws& draws, const std::vector<Below>& blocks, 
   const auto first = static_cast<std::size_t>(later - blocks.begin()) - 1;
   double below = below_of(blocks[first]);
   std::size_t k = first * block;
-  double middle = 0.0;
+  // A grain drawn twice is two grains, and between their middles the quantile is their value.
+  const auto half = [&](std::size_t grain) { return by_mass ? 0.5 * masses_[grain] : 0.5; };
   for (; k < values_.size(); ++k) {
     const double own = weight<by_mass>(draws, k, lane);
-    middle = below + 0.5 * own;
-    if (own > 0.0 && middle >= target) break;
+    if (own > 0.0 && below + own - half(k) >= target) break;
     below += own;
   }
   // The previous grain among the drawn ones.
   std::size_t last = k;
-  double last_weight = 0.0;
-  while (last > 0 && !(last_weight > 0.0)) last_weight = weight<by_mass>(draws, --last, lane);
-  if (!(last_weight > 0.0)) return values_[k];
+  while (last > 0 && draws[grains_[last - 1]][lane] == 0) --last;
+  if (last == 0) return values_[k];
+  --last;
   if (k == values_.size()) return values_[last];
-  const double last_middle = below - 0.5 * last_weight;
-  const double part = (target - last_middle) / (middle - last_middle);
+  const double last_middle = below - half(last);
+  const double part = std::min(1.0, (target - last_middle) / (below + half(k) - last_middle));
   return values_[last] + part * (values_[k] - values_[last]);
 }
 
