@@ -742,6 +742,8 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
   const SampleReport report = report_of(23, true);
   const test::Rows page = test::table_named(sample_html(report, Execution(1)), "descriptor");
   const Document json = Document::parse(sample_json(report)).at("comparison");
+  const auto csv = test::csv_records(sample_csv(report));
+  std::size_t in_csv = 0;
   const GrainSample& a = report.samples[0].sample;
   const GrainSample& b = report.samples[1].sample;
   ASSERT_EQ(page.size(), 2 + a.columns.size());
@@ -771,6 +773,15 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
       EXPECT_NEAR(found.at("wasserstein").get<double>(), area, 1e-12 * (1.0 + area));
       EXPECT_EQ(found.at("kolmogorov_smirnov_p"), d.kolmogorov_p);
       EXPECT_EQ(found.at("wasserstein_p"), d.wasserstein_p);
+      for (const auto& record : csv) {
+        const bool is_this = record[0] == "first and second & last" &&
+                             record[1] == row.column.name &&
+                             record[3] == (by_mass ? "mass" : "number");
+        if (!is_this) continue;
+        ++in_csv;
+        EXPECT_EQ(found.at(record[4]).get<double>(), std::stod(record[5])) << record[4];
+        EXPECT_EQ(record[2], record[4] == "wasserstein" ? row.column.unit : "");
+      }
     }
     ASSERT_EQ(page[1 + k].size(), 9U);
     for (std::size_t cell = 0; cell < 9; ++cell) {
@@ -782,6 +793,7 @@ TEST(SampleReportNumbers, OfTheComparisonAreThoseOfBothSamples) {
     EXPECT_NEAR(json.at(row.column.name).at("deviation").get<double>(), deviation,
                 1e-12 * deviation);
   }
+  EXPECT_EQ(in_csv, 8 * report.comparison.size());
   std::size_t seen = 0;
   for (const auto& cells : test::cells_of_lines(sample_lines(report))) {
     if (cells.size() != 5 || cells[0] != "size") continue;

@@ -157,11 +157,19 @@ Json json_of(const ColumnEstimates& estimates) {
   return json;
 }
 
+/// Visits the distances of a descriptor of two samples.
+template <class Visitor>
+void for_each_distance(const SampleDistance& d, const Visitor& visit) {
+  visit("kolmogorov_smirnov", d.kolmogorov);
+  visit("kolmogorov_smirnov_p", d.kolmogorov_p);
+  visit("wasserstein", d.wasserstein);
+  visit("wasserstein_p", d.wasserstein_p);
+}
+
 Json json_of(const SampleDistance& d) {
-  return {{"kolmogorov_smirnov", d.kolmogorov},
-          {"kolmogorov_smirnov_p", d.kolmogorov_p},
-          {"wasserstein", d.wasserstein},
-          {"wasserstein_p", d.wasserstein_p}};
+  Json json = Json::object();
+  for_each_distance(d, [&](const char* name, double value) { json[name] = value; });
+  return json;
 }
 
 Json json_of(const ReportedSample& one) {
@@ -215,6 +223,21 @@ Json json_of(const DetailLevels& levels) {
     rows[row.name] = {{"errors", errors}, {"nodes_needed", row.nodes_needed}};
   }
   return {{"mark_percent", levels.mark_percent}, {"descriptors", rows}};
+}
+
+/// Rows of a CSV for the distances of two samples. Only Wasserstein's has a unit.
+void append_comparison(const SampleReport& report, std::string& text) {
+  for (const ColumnComparison& row : report.comparison) {
+    for (const auto& [weighting, distance] :
+         {std::pair("number", row.by_number), std::pair("mass", row.by_mass)}) {
+      const char* name = weighting;
+      for_each_distance(distance, [&](const std::string& statistic, double value) {
+        text += csv_record({report.samples[0].name + " and " + report.samples[1].name,
+                            row.column.name, statistic == "wasserstein" ? row.column.unit : "",
+                            name, statistic, format_exact(value), "", ""});
+      });
+    }
+  }
 }
 
 /// Rows of a sample's CSV for the errors at each number of nodes.
@@ -382,6 +405,7 @@ std::string sample_csv(const SampleReport& report) {
       add({trend.name, ""}, "number", "size_correlation_trusted", trend.trusted);
     }
   }
+  append_comparison(report, text);
   if (report.levels) append_levels(report.samples.front().name, *report.levels, text);
   return text;
 }
