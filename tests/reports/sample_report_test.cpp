@@ -408,6 +408,15 @@ TEST(SampleReport, APageHoldsItsDataAndLoadsNothing) {
   }
 }
 
+TEST(SampleReport, NeedsNoNumberOfGrainsWithoutIntervals) {
+  SampleReport report = report_of(6, false);
+  EXPECT_GT(data_of(sample_html(report, Execution(1))).at("needed").size(), 3U);
+  SampleOptions options = report.options;
+  options.repetitions = 0;
+  report.samples[0].statistics = measure_sample(report.samples[0].sample, options, Execution(1));
+  EXPECT_TRUE(data_of(sample_html(report, Execution(1))).at("needed").empty());
+}
+
 TEST(SampleReport, APageOfManyGrainsStaysSmall) {
   SampleReport report = report_of(30, false);
   GrainSample& sample = report.samples[0].sample;

@@ -191,7 +191,7 @@ std::string sample_data(const ReportedSample& one, std::size_t samples,
 Json needed_of(const SampleStatistics& s) {
   Json list = Json::array();
   const auto add = [&](const std::string& name, const Estimate& e) {
-    if (e.lower == e.upper) return;  // the same of all grains
+    if (!(e.lower < e.upper)) return;  // the same of all grains, or no repetitions
     list.push_back({{"name", name}, {"value", e.value}, {"lower", e.lower}, {"upper", e.upper}});
   };
   add("D10 by mass", s.size_by_mass.d10);
@@ -475,8 +475,8 @@ void add_statistics(HtmlDocument& page, const SampleReport& report) {
     add_long_table(page, [&](ColumnFilter is_shown) { return statistics_table(one, is_shown); });
   }
   page.add_paragraph(
-      "Correlation: rank correlation (Spearman). Reports as .csv or .json have intervals for all "
-      "columns.");
+      "Correlation: rank correlation (Spearman), with the interval of Bonett and Wright (2000). "
+      "Reports as .csv or .json have intervals for all columns.");
 }
 
 void add_voxels(HtmlDocument& page, const SampleReport& report) {
