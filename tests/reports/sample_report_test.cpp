@@ -129,6 +129,7 @@ DetailLevels six_levels() {
   for (const char* name : {"volume", "convexity", "rms_distance", "contact_normal_90"}) {
     DescriptorLevels row;
     row.name = name;
+    if (row.name == "contact_normal_90") row.unit = "degrees";
     for (std::size_t l = 0; l < 6; ++l) {
       LevelError error;
       error.count = 7 + l;
@@ -838,7 +839,9 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
     SCOPED_TRACE(row.name);
     const std::string unit = r == 3 ? "|degrees" : "|%";
     ASSERT_EQ(page[1 + r].size(), 8U);
-    EXPECT_EQ(page[1 + r][0], in_words.at(row.name));
+    EXPECT_EQ(page[1 + r][0], in_words.at(row.name) + (r == 3 ? ", degrees" : ""));
+    EXPECT_EQ("|" + json.at("descriptors").at(row.name).at("unit").get<std::string>(), unit);
+    EXPECT_EQ("|" + data.at("rows").at(r).at("unit").get<std::string>(), unit);
     EXPECT_EQ(data.at("rows").at(r).at("words"), in_words.at(row.name));
     EXPECT_EQ(page[1 + r][7], format_number(row.nodes_needed, 4));
     EXPECT_EQ(data.at("rows").at(r).at("name"), row.name);
@@ -877,7 +880,7 @@ TEST(SampleReportNumbers, OfTheLevelsStandUnderTheirNames) {
                                              "N 3200", "N for 1.5 %"}));
   for (std::size_t r = 0; r < 4; ++r) {
     const DescriptorLevels& row = report.levels->rows[r];
-    std::vector<std::string> expected = {row.name};
+    std::vector<std::string> expected = {row.name + (r == 3 ? ", degrees" : "")};
     for (std::size_t l = 2; l < 6; ++l) {
       expected.push_back(format_number(row.levels[l].percent_90, 4));
     }

@@ -72,6 +72,16 @@ GrainTable with_contacts(GrainTable table, double mean, double scatter) {
   return table;
 }
 
+TEST(DetailLevels, AMarkInPercentIsNoMarkOfDegrees) {
+  GrainTable table = with_contacts(table_with(100.0), 3.0, 0.1);
+  table.columns.back() = {"contact_normal_90", "degrees"};
+  const DetailLevels levels = measure_levels({table}, 1.0);
+  ASSERT_EQ(levels.rows[2].name, "contact_normal_90");
+  EXPECT_EQ(levels.rows[2].unit, "degrees");
+  EXPECT_TRUE(std::isnan(levels.rows[2].nodes_needed));
+  EXPECT_EQ(levels.rows[1].unit, "%");
+}
+
 TEST(DetailLevels, ContactErrorsCountByTheirSize) {
   const DetailLevels levels = measure_levels(
       {with_contacts(table_with(100.0), -3.0, 5.0), with_contacts(table_with(400.0), -0.75, 1.25)},

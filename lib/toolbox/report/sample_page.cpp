@@ -214,6 +214,7 @@ Json levels_of(const DetailLevels& levels) {
     }
     rows.push_back({{"name", row.name},
                     {"words", words_of(row.name)},
+                    {"unit", row.unit},
                     {"median", median},
                     {"percent_90", most}});
   }
@@ -313,7 +314,8 @@ Rows levels_table(const DetailLevels& levels, ColumnFilter is_shown) {
   rows[0].push_back("N for " + format_number(levels.mark_percent, 3) + " %");
   for (const DescriptorLevels& row : levels.rows) {
     if (!is_shown(row.name)) continue;
-    std::vector<std::string> cells = {words_of(row.name)};
+    std::vector<std::string> cells = {words_of(row.name) +
+                                      (row.unit == "%" ? "" : ", " + row.unit)};
     for (const LevelError& error : row.levels) {
       cells.push_back(error.count == 0
                           ? "-"

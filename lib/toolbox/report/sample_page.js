@@ -379,17 +379,19 @@ function errors(name) {
   const row = levels.rows.find(one => one.name === name);
   const [voxelError, enough] = byVoxels(name);
   const all = row.median.concat(row.percent_90, voxelError).filter(v => found(v) && v > 0);
-  const [least, most] = all.length ? range([all.concat([levels.mark])]) : [0.1, 10];
+  const marks = row.unit === "%" ? [levels.mark] : [];  // the mark is in %
+  const [least, most] = all.length ? range([all.concat(marks)]) : [0.1, 10];
   const [first, last] = range([levels.nodes.concat(enough)]);
   const a = axes({low: first * 0.9, high: last * 1.1, log: true, at: levels.nodes,
                   label: "number of nodes N"},
                  {low: least * 0.8, high: most * 1.25, log: true,
-                  label: /^contact_normal/.test(name) ? "error, degrees" :
-                      /^(rms_distance|contact_)/.test(name) ?
-                      "error, % of the equivalent radius" : "error, %"});
+                  label: "error, " + row.unit +
+                      (/^(rms_distance|contact_(?!normal))/.test(name) ?
+                      " of the equivalent radius" : "")});
   const curve = list => levels.nodes.map((n, k) => [n, list[k]])
       .filter(p => found(p[1]) && p[1] > 0).map(p => [a.px(p[0]), a.py(p[1])]);
-  let body = a.body + line(left, a.py(levels.mark), width - right, a.py(levels.mark), "#a00");
+  let body = a.body;
+  for (const mark of marks) body += line(left, a.py(mark), width - right, a.py(mark), "#a00");
   body += path(curve(row.percent_90), colours[0]);
   body += path(curve(row.median), colours[0], 'stroke-dasharray="5 4"');
   for (const p of curve(row.percent_90).concat(curve(row.median))) {

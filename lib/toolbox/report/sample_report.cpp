@@ -134,7 +134,7 @@ Rows level_rows(const DetailLevels& levels, const IsShown& is_shown) {
   rows[0].push_back("N for " + short_number(levels.mark_percent) + " %");
   for (const DescriptorLevels& row : levels.rows) {
     if (row.levels.back().count == 0 || !is_shown(row.name)) continue;
-    std::vector<std::string> cells = {row.name};
+    std::vector<std::string> cells = {row.name + (row.unit == "%" ? "" : ", " + row.unit)};
     for (std::size_t k = first; k < row.levels.size(); ++k) {
       // An error this small is rounding.
       const double error = row.levels[k].percent_90;
@@ -220,7 +220,7 @@ Json json_of(const DetailLevels& levels) {
                         {"median_percent", row.levels[k].median},
                         {"percent_90_percent", row.levels[k].percent_90}});
     }
-    rows[row.name] = {{"errors", errors}, {"nodes_needed", row.nodes_needed}};
+    rows[row.name] = {{"unit", row.unit}, {"errors", errors}, {"nodes_needed", row.nodes_needed}};
   }
   return {{"mark_percent", levels.mark_percent}, {"descriptors", rows}};
 }
@@ -243,15 +243,14 @@ void append_comparison(const SampleReport& report, std::string& text) {
 /// Rows of a sample's CSV for the errors at each number of nodes.
 void append_levels(const std::string& sample, const DetailLevels& levels, std::string& text) {
   for (const DescriptorLevels& row : levels.rows) {
-    const bool is_angle = row.name.rfind("contact_normal_", 0) == 0;
     const auto add = [&](const std::string& unit, const std::string& statistic, double value) {
       text +=
           csv_record({sample, row.name, unit, "number", statistic, format_exact(value), "", ""});
     };
     for (std::size_t k = 0; k < row.levels.size(); ++k) {
       const std::string nodes = "_n" + format_number(levels.nodes[k], 9);
-      add(is_angle ? "degrees" : "%", "error_median" + nodes, row.levels[k].median);
-      add(is_angle ? "degrees" : "%", "error_percent_90" + nodes, row.levels[k].percent_90);
+      add(row.unit, "error_median" + nodes, row.levels[k].median);
+      add(row.unit, "error_percent_90" + nodes, row.levels[k].percent_90);
     }
     add("", "nodes_needed", row.nodes_needed);
   }

@@ -91,11 +91,13 @@ DetailLevels measure_levels(const std::vector<GrainTable>& tables, double mark_p
   }
   for (const std::string& name : error_names()) {
     DescriptorLevels row{name, {}, 0.0};
+    if (name.rfind("contact_normal_", 0) == 0) row.unit = "degrees";
     for (const auto& [nodes, table] : levels) {
       if (const auto errors = errors_of(*table, name)) row.levels.push_back(level_error(*errors));
     }
     if (row.levels.size() < levels.size()) continue;
-    row.nodes_needed = nodes_needed(result.nodes, row.levels, mark_percent);
+    row.nodes_needed = row.unit == "%" ? nodes_needed(result.nodes, row.levels, mark_percent)
+                                       : std::numeric_limits<double>::quiet_NaN();
     result.rows.push_back(std::move(row));
   }
   return result;

@@ -23,8 +23,10 @@ struct DescriptorLevels {
   std::string name;  ///< "rms_distance"; as the table's columns of contacts; descriptors
   std::vector<LevelError> levels;
   /// Smallest number of nodes from which on 90 % of the grains have errors below the mark,
-  /// interpolated linearly on logarithmic axes between two levels. NaN if no level is enough.
+  /// interpolated linearly on logarithmic axes between two levels. NaN if no level is enough, and
+  /// for degrees, because the mark is in %.
   double nodes_needed = 0.0;
+  std::string unit = "%";  ///< or "degrees"
 };
 
 /// A sample remeshed with several numbers of nodes.
