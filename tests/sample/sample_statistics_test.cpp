@@ -169,6 +169,21 @@ TEST(SampleComparison, RefusesTwoUnits) {
   EXPECT_NO_THROW(compare_samples(one, other, options, Execution(1)));
   one.columns[1].unit = "um";
   EXPECT_THROW(compare_samples(one, other, options, Execution(1)), Error);
+  one = other;
+  one.size_unit = "um";  // of other columns than those that both have
+  other.size_unit = "mm";
+  EXPECT_THROW(compare_samples(one, other, options, Execution(1)), Error);
+  other.size_unit = "um";
+  EXPECT_NO_THROW(compare_samples(one, other, options, Execution(1)));
+  // Masses of a balance are in any unit.
+  one.mass_column = {"mass", ""};
+  EXPECT_THROW(compare_samples(one, other, options, Execution(1)), Error);
+  other.mass_column = {"mass", "g"};
+  EXPECT_NO_THROW(compare_samples(one, other, options, Execution(1)));
+  one.mass_column.unit = "mg";
+  EXPECT_THROW(compare_samples(one, other, options, Execution(1)), Error);
+  other.mass_column = one.mass_column = {"density", ""};
+  EXPECT_NO_THROW(compare_samples(one, other, options, Execution(1)));
 }
 
 TEST(SampleStatistics, SizesOfAUniformSampleAreItsShares) {

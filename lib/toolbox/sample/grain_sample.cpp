@@ -124,6 +124,7 @@ MassOf masses_of(const GrainTable& table, const SampleOptions& options, GrainSam
   const auto density = table.find("density");
   if (!options.density && (mass || density)) {
     sample.density = std::numeric_limits<double>::quiet_NaN();
+    sample.mass_column = table.columns[mass ? *mass : *density];
     if (mass) {
       sample.notes.push_back("Masses are from the column \"mass\".");
       return [read = column(*mass)](Eigen::Index row, double) { return read(row); };

@@ -77,6 +77,7 @@ struct GrainSample {
   Eigen::VectorXd sizes;
   Eigen::VectorXd masses;            ///< above 0 and finite
   double density = 1.0;              ///< of all grains; NaN if the table has masses or densities
+  GrainColumn mass_column;           ///< of the table, "mass" or "density"; without a name: none
   std::vector<GrainColumn> columns;  ///< names without "scan."; no positions and no directions
   Eigen::MatrixXd values;            ///< grains x columns; NaN: missing
   /// Of each scan, NaN: not known; empty if the table has no resolution.

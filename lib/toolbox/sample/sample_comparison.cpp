@@ -225,9 +225,23 @@ void check_units(const GrainColumn& one, const GrainColumn& other) {
          " in the second. Convert the columns of one table, and name the unit in their headings.");
 }
 
+/// Refuses masses that may have two units: random divisions mix the grains of both samples.
+void check_masses(const GrainSample& one, const GrainSample& other) {
+  check_units(one.mass_column, other.mass_column);
+  if (one.mass_column.name == other.mass_column.name) return;
+  const auto source = [](const GrainSample& sample) {
+    return sample.mass_column.name.empty() ? "the volumes"
+                                           : "the column \"" + sample.mass_column.name + "\"";
+  };
+  refuse("Masses are from " + source(one) + " in the first sample and from " + source(other) +
+         " in the second, which may be two units. Give both tables the column, or give " +
+         mention("density") + ", so that both have masses from volumes.");
+}
+
 /// Returns the descriptors that both samples have.
 std::vector<ColumnPair> shared_columns(const GrainSample& one, const GrainSample& other) {
   std::vector<ColumnPair> pairs = {{{"size", one.size_unit}, one.sizes, other.sizes}};
+  check_units(pairs[0].column, {"size", other.size_unit});
   for (std::size_t k = 0; k < one.columns.size(); ++k) {
     const auto found = find_column(other.columns, one.columns[k].name);
     if (!found) continue;
@@ -259,6 +273,7 @@ std::vector<ColumnComparison> compare_samples(const GrainSample& one, const Grai
                                               const SampleOptions& options,
                                               const Execution& execution) {
   execution.report(0.0, "Comparing the samples");
+  check_masses(one, other);
   const std::vector<ColumnPair> pairs = shared_columns(one, other);
   const std::size_t of_one = one.grains.size();
   const std::size_t all = of_one + other.grains.size();

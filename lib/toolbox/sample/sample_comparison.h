@@ -38,7 +38,9 @@ SampleDistance distance_between(const Distribution& one, const Distribution& oth
 /// Compares the descriptors that both samples have, the size first. p = (1 + divisions at least as
 /// far apart) / (1 + all), from options.repetitions random divisions, fewer above 4,000 grains but
 /// at least 200. Equal options give the same bytes on any number of threads. Throws
-/// Error(InvalidInput) if a descriptor has two units, such as mm and um; "length" is any unit.
+/// Error(InvalidInput) if a descriptor or the size has two units, such as mm and um, where "length"
+/// is any unit, and if the masses of the samples are from columns of two names, or of one sample
+/// only.
 std::vector<ColumnComparison> compare_samples(const GrainSample& one, const GrainSample& other,
                                               const SampleOptions& options,
                                               const Execution& execution);
