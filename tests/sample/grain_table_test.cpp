@@ -9,6 +9,7 @@
 #include <string>
 
 #include "support/holds.h"
+#include "toolbox/sample/grain_sample.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 
@@ -178,6 +179,15 @@ TEST_F(GrainTableTest, LeavesOutNoColumnOfADescriptorInSilence) {
                     "of 1"));
   EXPECT_TRUE(holds(refusal("grain,volume\na,12 mm\n"), "\"volume [mm]\""));
   EXPECT_TRUE(holds(refusal("grain,volume,sphericity_wadell\na,1,1.7\n"), "at most 1"));
+  // What begins with a text is left out, and told if numbers follow.
+  const GrainTable table = read(
+      "grain,volume,roundness,form,id,empty\na,1,-,\"0,5\",A1,\nb,2,0.5,\"0,4\",NA,\n"
+      "12,3,0.6,text,B2,\n");
+  EXPECT_EQ(table.text_columns, (std::vector<std::string>{"roundness", "form", "id"}));
+  EXPECT_EQ(table.mixed_columns, (std::vector<std::string>{"roundness", "form"}));
+  SampleOptions options;
+  options.size = SizeMeasure::EquivalentDiameter;
+  EXPECT_TRUE(holds(sample_of(table, options).notes[0], "no number: roundness, form."));
 }
 
 TEST_F(GrainTableTest, KnowsTheUsualHeadings) {
@@ -266,7 +276,8 @@ TEST_F(GrainTableTest, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(table.columns[0].unit, "mm");
     EXPECT_EQ(table.values, Eigen::Vector2d(1.5, -0.2));
     EXPECT_EQ(table.values, same.values);
-    EXPECT_EQ(table.text_columns, (std::vector<std::string>{"grain", "note"}));
+    EXPECT_EQ(table.text_columns, std::vector<std::string>{"note"});
+    EXPECT_TRUE(table.mixed_columns.empty());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
+#include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/voxel_resolution.h"
 
@@ -207,6 +208,17 @@ void note_few_voxels(GrainSample& sample) {
   }
 }
 
+/// Notes the columns that are left out although they have numbers.
+void note_mixed_columns(const GrainTable& table, GrainSample& sample) {
+  if (table.mixed_columns.empty()) return;
+  std::vector<std::string> names;
+  for (const std::string& name : table.mixed_columns) names.push_back(readable(name, ""));
+  constexpr std::size_t most = 5;
+  sample.notes.push_back(
+      "Columns left out, because their first entry is no number: " + listed(names, most) +
+      ". Write numbers with decimal points, and leave other fields empty.");
+}
+
 }  // namespace
 
 int SampleOptions::repetitions_for(std::size_t grains, std::size_t most_at_full) const {
@@ -224,9 +236,8 @@ GrainSample sample_of(const GrainTable& table, const SampleOptions& options) {
   const std::vector<std::size_t> places = choose_columns(table, options, sample);
   const std::string size_column = column_of(options.size);
   const auto size_place = place_of_size(sample, options.size);
-  if (!size_place) {
-    refuse_without_size(table, sample, size_column);
-  }
+  if (!size_place) refuse_without_size(table, sample, size_column);
+  note_mixed_columns(table, sample);
   sample.size_name = label_of(options.size);
   sample.size_unit = sample.columns[*size_place].unit;
   const bool is_from_volume = sample.columns[*size_place].name != size_column;

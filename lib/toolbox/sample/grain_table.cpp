@@ -65,8 +65,15 @@ GrainColumn column_of(const TableHeading& heading) {
   return has_unit ? GrainColumn{heading.name, heading.unit} : GrainColumn{heading.whole, ""};
 }
 
-/// Content of a column.
-enum class Role { Undecided, Number, Text };
+/// Content of a column: the names, files and states of grains, numbers, texts, or texts first and
+/// then numbers.
+enum class Role { Words, Undecided, Number, Text, Mixed };
+
+/// Whether a field of a column of texts is a number, with a decimal point or comma.
+bool is_number_among_texts(const std::string& field) {
+  const auto number = number_in_field(field, ',');
+  return number && !std::isnan(*number);
+}
 
 /// Reads the rows of a file one after the other.
 class TableReader {
@@ -108,7 +115,7 @@ class TableReader {
   std::optional<std::size_t> volume_field_;
   std::optional<std::size_t> diameter_field_;
   std::optional<std::size_t> area_field_;
-  std::vector<std::vector<double>> numbers_;  ///< of each field that is not text
+  std::vector<std::vector<double>> numbers_;  ///< of each field of numbers
   GrainTable table_;
   bool has_comma_ = false;  ///< a number with a decimal comma
   std::string doubtful_;    ///< a number with points at thousands
@@ -164,11 +171,11 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
   }
   for (const GrainColumn& column : fields_) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
-    roles_.push_back(is_text ? Role::Text : Role::Undecided);
+    roles_.push_back(is_text ? Role::Words : Role::Undecided);
   }
   const std::string& first = fields_.front().name;
   if (!name_field_ && !is_size(first) && !is_fraction(first)) name_field_ = 0;
-  if (name_field_) roles_[*name_field_] = Role::Text;
+  if (name_field_) roles_[*name_field_] = Role::Words;
   numbers_.resize(fields_.size());
   marks_.resize(fields_.size());
 }
@@ -345,7 +352,8 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
                                       : std::to_string(table_.grains.size() + 1));
   if (file_field_) table_.files.push_back(fields[*file_field_]);
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (roles_[k] == Role::Text) continue;
+    if (roles_[k] == Role::Text && is_number_among_texts(fields[k])) roles_[k] = Role::Mixed;
+    if (roles_[k] != Role::Undecided && roles_[k] != Role::Number) continue;
     std::optional<double> number = number_in_field(fields[k], reader_.decimal());
     if (number) *number = foreign_[k].factor * portable::pow(*number, foreign_[k].exponent);
     check_field(k, fields[k], number);
@@ -353,7 +361,11 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
       fail("the column \"" + readable(fields_[k].name, "") + "\" has \"" + readable(fields[k], "") +
            "\", and numbers above it. Write a number, or leave the field empty.");
     }
-    if (!trimmed(fields[k]).empty()) roles_[k] = number ? Role::Number : Role::Text;
+    if (!trimmed(fields[k]).empty()) {
+      roles_[k] = number                             ? Role::Number
+                  : is_number_among_texts(fields[k]) ? Role::Mixed
+                                                     : Role::Text;
+    }
     numbers_[k].push_back(number.value_or(missing));
   }
   check_area();
@@ -379,10 +391,10 @@ GrainTable TableReader::table() {
   std::vector<std::size_t> taken;
   for (std::size_t k = 0; k < fields_.size(); ++k) {
     // A column of a batch may be empty for all of its grains.
-    if (roles_[k] == Role::Text) {
-      table_.text_columns.push_back(fields_[k].name);
-      continue;
-    }
+    const Role role = roles_[k];
+    if (role == Role::Text || role == Role::Mixed) table_.text_columns.push_back(fields_[k].name);
+    if (role == Role::Mixed) table_.mixed_columns.push_back(fields_[k].name);
+    if (role != Role::Undecided && role != Role::Number) continue;
     taken.push_back(k);
     table_.columns.push_back(fields_[k]);
   }

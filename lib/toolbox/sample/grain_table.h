@@ -30,6 +30,8 @@ struct GrainTable {
   std::size_t failed = 0;  ///< rows left out because their status is "failed"
   /// Columns that were left out because their first entry is a text.
   std::vector<std::string> text_columns;
+  /// Of these columns, those with numbers, also with decimal commas.
+  std::vector<std::string> mixed_columns;
 
   /// Returns the index of a column; nothing if the table has no such column.
   std::optional<std::size_t> find(std::string_view name) const {
