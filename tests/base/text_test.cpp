@@ -95,11 +95,14 @@ TEST(ReadableText, NamesControlCharacters) {
 }
 
 TEST(ReadableText, AFieldIsNoFormula) {
-  for (const std::string text : {"=1+1.ply", "+1+1", "-1+1", "@sum(a1)", "-a.ply", "\t=1"}) {
+  for (const std::string text : {"=1+1.ply", "+1+1", "-1+1", "@sum(a1)", "-a.ply", "\t=1", "'=1"}) {
     EXPECT_EQ(csv_field(text), "'" + text);
+    EXPECT_EQ(text_of_field("'" + text), text);
   }
-  for (const std::string text : {"a=1.ply", "-1.5", "-1e-05", "-", "=", "", "0", "'=1", "1-2"}) {
+  for (const std::string text :
+       {"a=1.ply", "-1.5", "-1e-05", "-", "=", "", "0", "1-2", "'", "'a", "''"}) {
     EXPECT_EQ(csv_field(text), text);
+    EXPECT_EQ(text_of_field(text), text);
   }
   EXPECT_EQ(csv_record({"=a,\xFF", "-2", "x\0"s}), "\"'=a,\\xFF\",-2,x\\x00\r\n");
 }

@@ -12,6 +12,7 @@
 #include "toolbox/sample/grain_sample.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 namespace {
@@ -170,6 +171,12 @@ TEST_F(GrainTableTest, RefusesMarksBetweenThousandsByRowAndField) {
       holds(refusal("grain;volume\na;1.660\nb;456\n"), "line 2: \"1.660\" may have a point"));
   EXPECT_EQ(read("grain,volume\na,1.660\nb,456\n").values(0, 0), 1.66);
   EXPECT_EQ(read("grain;volume\na;1.660\nb;456\nc;0.250\n").values(0, 0), 1.66);
+}
+
+TEST_F(GrainTableTest, NamesFilesAsTheyAre) {
+  const std::string text = csv_record({"grain", "file", "volume"}) +
+                           csv_record({"a", "-a.ply", "1"}) + csv_record({"b", "'-a.ply", "2"});
+  EXPECT_EQ(read(text).files, (std::vector<std::string>{"-a.ply", "'-a.ply"}));
 }
 
 TEST_F(GrainTableTest, LeavesOutNoColumnOfADescriptorInSilence) {

@@ -122,7 +122,7 @@ bool is_kept_by_job(const std::string& file) {
     std::vector<std::string> fields;
     while (reader.next(fields)) {
       for (const JobFolder& one : folders) {
-        const std::string made = one.name_of(fields.front());
+        const std::string made = one.name_of(std::string(text_of_field(fields.front())));
         if (is_beside ? name.rfind(made, 0) == 0 : name == made) return true;
       }
     }

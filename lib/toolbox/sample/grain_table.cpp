@@ -350,7 +350,7 @@ void TableReader::read_row(const std::vector<std::string>& fields) {
   if (!status_field_) refuse_summary(fields);
   table_.grains.push_back(name_field_ ? fields[*name_field_]
                                       : std::to_string(table_.grains.size() + 1));
-  if (file_field_) table_.files.push_back(fields[*file_field_]);
+  if (file_field_) table_.files.emplace_back(text_of_field(fields[*file_field_]));
   for (std::size_t k = 0; k < fields.size(); ++k) {
     if (roles_[k] == Role::Text && is_number_among_texts(fields[k])) roles_[k] = Role::Mixed;
     if (roles_[k] != Role::Undecided && roles_[k] != Role::Number) continue;

@@ -49,6 +49,13 @@ bool is_number(std::string_view text) {
   return error == std::errc() && rest == end;
 }
 
+/// Whether a spreadsheet would read a text, or what stands behind ' in it, as a formula.
+bool begins_formula(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+  constexpr std::string_view firsts = "=+-@\t\r";
+  return text.size() > 1 && firsts.find(text.front()) != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string lower_case(std::string_view text) {
@@ -141,12 +148,12 @@ std::string html_escaped(std::string_view text) {
 
 std::string csv_field(std::string_view text) {
   std::string field = readable(text, "\t\n\r");
-  constexpr std::string_view begins_formula = "=+-@\t\r";
-  if (field.size() > 1 && begins_formula.find(field.front()) != std::string_view::npos &&
-      !is_number(field)) {
-    field.insert(field.begin(), '\'');
-  }
+  if (begins_formula(field) && !is_number(field)) field.insert(field.begin(), '\'');
   return field;
+}
+
+std::string_view text_of_field(std::string_view field) {
+  return field.substr(!field.empty() && field.front() == '\'' && begins_formula(field) ? 1 : 0);
 }
 
 }  // namespace wscvt

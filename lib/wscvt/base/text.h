@@ -38,7 +38,11 @@ std::string readable(std::string_view text, std::string_view kept = "\n");
 std::string html_escaped(std::string_view text);
 
 /// Returns a table field: `readable`, but tabs and line breaks stay. Puts a ' before a text that a
-/// spreadsheet would read as a formula (=, +, - or @ and more after it).
+/// spreadsheet would read as a formula (=, +, - or @ and more after it), and before such a text
+/// that begins with ' already.
 std::string csv_field(std::string_view text);
+
+/// Returns the text of a field of csv_field, without the ' that csv_field has put before it.
+std::string_view text_of_field(std::string_view field);
 
 }  // namespace wscvt
