@@ -127,13 +127,14 @@ TEST_F(ClumpProgram, ConvexPartsOfASampleAreThoseOfItsGrains) {
 // Whether engines run the folder is tested by tests/run_all.sh engines.
 TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   write_sample();
-  std::ofstream(path("curve.csv")) << "0.1,0\n0.3,100\n";
+  std::ofstream(path("curve.csv")) << "Sieves\nmm;%\n0,1;0\n0,3;100\n";
   const std::string call =
       "clump scans -k 2 -o out --size 0.2 --engine lammps --size-curve curve.csv";
   const Outcome outcome = run(call);
   ASSERT_EQ(outcome.exit_code, 3) << outcome.errors;
   EXPECT_TRUE(holds(outcome.output, "cd out && python3 run.py"));
-  EXPECT_EQ(content("out/sizes.csv"), content("curve.csv"));
+  const std::string heading = "equivalent_diameter [length],finer_by_mass [%]\r\n";
+  EXPECT_EQ(content("out/sizes.csv"), heading + "0.1,0\r\n0.3,100\r\n");
   EXPECT_TRUE(holds(content("out/run.py"), "import packing"));
   EXPECT_TRUE(exists("out/packing.py"));
   const std::string scene = content("out/scene.json");
@@ -157,7 +158,12 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   ASSERT_EQ(run("convex scans -k 2 -n 60 -q -o parts --engine bullet").exit_code, 0);
   EXPECT_TRUE(exists("parts/bullet_settle.cpp"));
   EXPECT_EQ(content("parts/templates.csv"), content("scans/templates.csv"));
-  EXPECT_EQ(content("parts/sizes.csv"), content("scans/sizes.csv"));
+  EXPECT_EQ(content("parts/sizes.csv"), heading + "1,0\r\n2,100\r\n");
+  // All lengths are scaled, and --size is the size of all grains.
+  ASSERT_EQ(run("clump scans -k 2 -q -o large --engine yade --scale 1000").exit_code, 0);
+  EXPECT_EQ(content("large/sizes.csv"), heading + "1000,0\r\n2000,100\r\n");
+  ASSERT_EQ(run("clump scans -k 2 -q -o equal --engine yade --size 3").exit_code, 0);
+  EXPECT_FALSE(exists("equal/sizes.csv"));
   expect_refused("clump scans -o new",
                  {{"--engine mujoco", 2, "Use wscvt convex"},
                   {"--engine lamps", 2, "yade, lammps, liggghts"},

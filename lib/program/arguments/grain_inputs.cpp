@@ -33,10 +33,6 @@ void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet)
   }
 }
 
-void copy_text(const std::filesystem::path& from, const std::filesystem::path& to) {
-  write_file(to.string(), file_content(from.string()));
-}
-
 /// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
 /// gives their weights and sizes.
 std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
@@ -49,11 +45,18 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
   }
   const std::filesystem::path out(folder.path());
   const std::filesystem::path in(arguments.inputs.front());
+  // run.py reads only commas, decimal points and one heading.
+  const auto write_sizes = [&](const std::string& curve, double scale) {
+    write_file((out / "sizes.csv").string(), read_given_sizes(curve).table(scale));
+  };
   if (arguments.inputs.size() == 1 && std::filesystem::exists(in / "templates.csv")) {
-    copy_text(in / "templates.csv", out / "templates.csv");
-    if (arguments.sizes.empty()) copy_text(in / "sizes.csv", out / "sizes.csv");
+    write_file((out / "templates.csv").string(), file_content((in / "templates.csv").string()));
+    // The curve is of the scans; with a size all grains have it.
+    if (arguments.sizes.empty() && !(frame.size > 0.0)) {
+      write_sizes((in / "sizes.csv").string(), frame.scale);
+    }
   }
-  if (!arguments.sizes.empty()) copy_text(arguments.sizes, out / "sizes.csv");
+  if (!arguments.sizes.empty()) write_sizes(arguments.sizes, 1.0);
   const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
   return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame,
                              is_given ? density : engine_density);
@@ -87,9 +90,10 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
                      ". Its run.py starts the engine; scene.json has the number of grains, the "
                      "container and the materials")
       ->type_name("NAME");
-  app.add_option("--size-curve", arguments.sizes,
-                 "Size curve of the packing, a CSV file of two columns: equivalent diameter, % "
-                 "finer by mass. Default: the grains' own sizes")
+  app.add_option(
+         "--size-curve", arguments.sizes,
+         "Size curve of the packing, a CSV file of two columns: equivalent diameter, in the "
+         "unit of the output, % finer by mass. Default: the grains' own sizes")
       ->type_name("FILE")
       ->group(finer_settings);
 }

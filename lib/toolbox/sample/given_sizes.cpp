@@ -47,32 +47,40 @@ double per_mass(double diameter) { return 1.0 / (diameter * diameter * diameter)
 }  // namespace
 
 GivenSizes::GivenSizes(std::vector<double> diameters, std::vector<double> percentages)
-    : diameters_(std::move(diameters)) {
+    : diameters_(std::move(diameters)), percentages_(std::move(percentages)) {
   const std::size_t count = diameters_.size();
-  if (count < 2 || percentages.size() != count) {
+  if (count < 2 || percentages_.size() != count) {
     refuse("A size curve has " + std::to_string(count) + " diameters and " +
-           std::to_string(percentages.size()) + " percentages. Give two or more of each.");
+           std::to_string(percentages_.size()) + " percentages_. Give two or more of each.");
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (!(diameters_[k] > (k == 0 ? 0.0 : diameters_[k - 1])) ||
-        !(percentages[k] >= (k == 0 ? 0.0 : percentages[k - 1])) || percentages[k] > 100.0) {
+        !(percentages_[k] >= (k == 0 ? 0.0 : percentages_[k - 1])) || percentages_[k] > 100.0) {
       refuse("Point " + std::to_string(k + 1) + " of the size curve is " +
-             format_typed(diameters_[k]) + ", " + format_typed(percentages[k]) +
+             format_typed(diameters_[k]) + ", " + format_typed(percentages_[k]) +
              " %. Give diameters above 0 and percentages from 0 to 100 that both ascend.");
     }
   }
-  if (percentages.front() != 0.0 || percentages.back() != 100.0) {
-    refuse("The size curve runs from " + format_typed(percentages.front()) + " % to " +
-           format_typed(percentages.back()) +
+  if (percentages_.front() != 0.0 || percentages_.back() != 100.0) {
+    refuse("The size curve runs from " + format_typed(percentages_.front()) + " % to " +
+           format_typed(percentages_.back()) +
            " %. Add its ends, the smallest diameter at 0 % and the largest at 100 %.");
   }
   numbers_.push_back(0.0);
   for (std::size_t k = 1; k < count; ++k) {
     const double width = 3.0 * portable::log(diameters_[k] / diameters_[k - 1]);
     const double mean = (per_mass(diameters_[k - 1]) - per_mass(diameters_[k])) / width;
-    numbers_.push_back(numbers_.back() + (percentages[k] - percentages[k - 1]) * mean);
+    numbers_.push_back(numbers_.back() + (percentages_[k] - percentages_[k - 1]) * mean);
   }
   for (double& number : numbers_) number /= numbers_.back();
+}
+
+std::string GivenSizes::table(double scale) const {
+  std::string text = csv_record({"equivalent_diameter [length]", "finer_by_mass [%]"});
+  for (std::size_t k = 0; k < diameters_.size(); ++k) {
+    text += csv_record({format_exact(scale * diameters_[k]), format_exact(percentages_[k])});
+  }
+  return text;
 }
 
 double GivenSizes::diameter(double fraction) const {

@@ -19,8 +19,13 @@ class GivenSizes {
   /// in [0, 1].
   double diameter(double fraction) const;
 
+  /// Returns a table that read_given_sizes reads, with a heading, commas and decimal points.
+  /// `scale` multiplies the diameters.
+  std::string table(double scale) const;
+
  private:
   std::vector<double> diameters_;
+  std::vector<double> percentages_;
   std::vector<double> numbers_;  ///< cumulative, of the grains, last 1
 };
 
