@@ -32,29 +32,30 @@ std::vector<std::pair<double, double>> points_of(const std::string& table) {
   return points;
 }
 
-// A grain of half the mass of all lies between 50 % and its upper end.
+// A grain of half the mass of all has its middle at 75 %, and the last small one at 7.5/16.
 TEST(TemplateFiles, HoldTheSizeCurveByMass) {
   const auto points = points_of(size_curve_csv({2.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}));
   ASSERT_EQ(points.size(), 51U);
   EXPECT_EQ(points.front().second, 0.0);
   EXPECT_EQ(points.back().second, 100.0);
-  EXPECT_DOUBLE_EQ(points.front().first, 1.0);
+  EXPECT_NEAR(points.front().first, 1.0, 1.1e-8);
   EXPECT_DOUBLE_EQ(points.back().first, 2.0);
-  EXPECT_LT(points[22].first, 1.00001);  // 44 %; the small grains but the first have 7/15
-  EXPECT_GT(points[24].first, 1.01);     // 48 %
+  EXPECT_NEAR(points[23].first, 1.0, 1e-8);  // 46 %
+  EXPECT_NEAR(points[30].first, 1.0 + (0.6 - 7.5 / 16.0) / (0.75 - 7.5 / 16.0), 2e-8);
+  EXPECT_NEAR(points[38].first, 2.0, 1e-8);  // 76 %
   for (std::size_t k = 1; k < points.size(); ++k) EXPECT_GT(points[k].first, points[k - 1].first);
   EXPECT_EQ(points_of(size_curve_csv({3.0})).size(), 51U);
   EXPECT_ERROR(size_curve_csv({}), InvalidInput);
 }
 
-// Masses of 1, 8 and 64: half of the way from 1 to 73 is 28 of the last 64.
-TEST(TemplateFiles, HaveDiametersBetweenTheGrainsByTheLogarithm) {
+// Masses of 1, 8 and 64: half of all is 31.5 of the 36 between the middles of the last two.
+TEST(TemplateFiles, HaveTheQuantilesOfStatistics) {
   const std::vector<double> diameters = {2.0, 4.0, 1.0};
-  const double middle = 2.0 * std::pow(2.0, 28.0 / 64.0);
+  const double middle = 2.0 + 2.0 * 31.5 / 36.0;
   const auto points = points_of(size_curve_csv(diameters));
   ASSERT_EQ(points.size(), 51U);
   EXPECT_NEAR(points[25].second, 50.0, 1e-12);
-  EXPECT_NEAR(points[25].first, middle, 1e-12);
+  EXPECT_NEAR(points[25].first, middle, 1e-8 * middle);
   // MercuryDPM takes radii and fractions.
   std::istringstream lines(mercury_psd_csv(diameters));
   char comma = 0;

@@ -7,10 +7,11 @@
 #include <numeric>
 #include <utility>
 
+#include "toolbox/sample/distribution.h"
+#include "toolbox/sample/given_sizes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/output_file.h"
-#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -154,33 +155,19 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
 
 constexpr int percent_step = 2;
 
-/// Diameters of grains in ascending order, with the mass up to each. The first grain's mass counts
-/// from its diameter on.
-class CumulativeMass {
- public:
-  explicit CumulativeMass(std::vector<double> diameters) : diameters_(std::move(diameters)) {
-    if (diameters_.empty()) refuse("There are no grains for a size curve. Give at least one.");
-    std::sort(diameters_.begin(), diameters_.end());
-    double mass = 0.0;
-    for (const double diameter : diameters_) {
-      mass += diameter * diameter * diameter;
-      finer_.push_back(mass);
-    }
+/// Returns the diameters that 0 to 100 % of the mass are finer than, in steps.
+std::vector<double> finer_by_mass(const std::vector<double>& diameters) {
+  if (diameters.empty()) refuse("There are no grains for a size curve. Give at least one.");
+  const Eigen::Map<const Eigen::VectorXd> sizes(diameters.data(), diameters.size());
+  const Distribution by_mass(sizes, sizes.array().cube());
+  std::vector<double> curve;
+  for (int percent = 0; percent <= 100; percent += percent_step) {
+    const double fraction = 0.01 * percent;
+    // Below half of the smallest grain's mass all are equal, but a curve ascends.
+    curve.push_back(by_mass.quantile(fraction) * (1.0 - 1e-8 * (1.0 - fraction)));
   }
-
-  double diameter(double fraction) const {
-    const double wanted = finer_.front() + fraction * (finer_.back() - finer_.front());
-    const auto above = std::lower_bound(finer_.begin(), finer_.end(), wanted);
-    const auto k = std::min(static_cast<std::size_t>(above - finer_.begin()), finer_.size() - 1);
-    if (k == 0) return diameters_[k];
-    const double part = (wanted - finer_[k - 1]) / (finer_[k] - finer_[k - 1]);
-    return diameters_[k - 1] * portable::pow(diameters_[k] / diameters_[k - 1], part);
-  }
-
- private:
-  std::vector<double> diameters_;
-  std::vector<double> finer_;
-};
+  return curve;
+}
 
 /// Writes what all templates together have.
 void write_sample_files(const TemplateJob& job, const DescribedSample& sample,
@@ -195,26 +182,18 @@ void write_sample_files(const TemplateJob& job, const DescribedSample& sample,
 
 }  // namespace
 
-std::string size_curve_csv(std::vector<double> diameters) {
-  const CumulativeMass curve(std::move(diameters));
-  std::string table = csv_record({"equivalent_diameter [length]", "finer_by_mass [%]"});
-  double last = 0.0;
-  for (int percent = 0; percent <= 100; percent += percent_step) {
-    double diameter = curve.diameter(0.01 * percent);
-    // For grains of one size the curve still needs two points.
-    if (percent > 0 && !(diameter > last)) diameter = last * (1.0 + 1e-9);
-    last = diameter;
-    table += csv_record({format_exact(diameter), format_exact(percent)});
-  }
-  return table;
+std::string size_curve_csv(const std::vector<double>& diameters) {
+  std::vector<double> percentages;
+  for (int percent = 0; percent <= 100; percent += percent_step) percentages.push_back(percent);
+  return GivenSizes(finer_by_mass(diameters), percentages).table(1.0);
 }
 
-std::string mercury_psd_csv(std::vector<double> diameters) {
-  const CumulativeMass curve(std::move(diameters));
+std::string mercury_psd_csv(const std::vector<double>& diameters) {
   std::string table;
-  for (int percent = 0; percent <= 100; percent += percent_step) {
-    table += format_exact(0.5 * curve.diameter(0.01 * percent)) + "," +
-             format_exact(0.01 * percent) + "\n";
+  int percent = 0;
+  for (const double diameter : finer_by_mass(diameters)) {
+    table += format_exact(0.5 * diameter) + "," + format_exact(0.01 * percent) + "\n";
+    percent += percent_step;
   }
   return table;
 }

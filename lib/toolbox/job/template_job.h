@@ -34,13 +34,14 @@ struct TemplateJob {
 };
 
 /// Returns the size curve of grains as a table: equivalent diameter and percentage finer by mass,
-/// from 0 at the smallest grain to 100 at the largest, in steps of 2 %. read_given_sizes reads it.
+/// from 0 at the smallest grain to 100 at the largest, in steps of 2 %: Distribution::quantile by
+/// mass, made ascending by parts of 1e-8. read_given_sizes reads it.
 /// Diameters above 0, length; throws Error(InvalidInput) if there are none.
-std::string size_curve_csv(std::vector<double> diameters);
+std::string size_curve_csv(const std::vector<double>& diameters);
 
 /// Returns the same curve for MercuryDPM, PSD::setPSDFromCSV with CUMULATIVE_VOLUME_DISTRIBUTION:
 /// radius and fraction finer by volume, without a heading.
-std::string mercury_psd_csv(std::vector<double> diameters);
+std::string mercury_psd_csv(const std::vector<double>& diameters);
 
 /// Throws Error(InvalidInput) if a template's file would replace one of the sample's files.
 void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& sample);
