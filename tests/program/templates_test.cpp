@@ -101,6 +101,20 @@ TEST_F(Templates, OfABatchsFolderAreMadeOfItsScans) {
   }
 }
 
+TEST_F(Templates, OfABatchsFolderAreNotMadeOfOtherScans) {
+  write_scans(4);
+  ASSERT_EQ(run("batch scans -o batch -n 50 -q").exit_code, 0);
+  // The same names in another place, or written anew.
+  fs::copy_file(path("scans/s11.stl"), path("scans/s10.stl"), fs::copy_options::overwrite_existing);
+  const Outcome outcome = run("grow --templates batch -k 4 -n 60 -o out");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(test::holds(outcome.errors, "\"scans/s10.stl\" has the volume ")) << outcome.errors;
+  // What the sentence says works.
+  EXPECT_EQ(run("grow --templates 'batch/*.ply' -k 4 -n 60 -o out -q").exit_code, 0);
+  fs::remove(path("scans/s10.stl"));  // then the remesh is taken
+  EXPECT_EQ(run("grow --templates batch -k 4 -n 60 -o out -q").exit_code, 0);
+}
+
 TEST_F(Templates, ReplaceNoScan) {
   write_scans(3);
   fs::rename(path("scans/s10.stl"), path("scans/template-02.stl"));

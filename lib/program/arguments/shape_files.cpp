@@ -229,13 +229,14 @@ std::size_t column_of(const GrainTable& table, const std::string& key) {
 }
 
 /// Returns the scan of a grain, if the grain's name is a path, because the descriptors are the
-/// scan's. Otherwise returns the file in the table.
-fs::path file_of(const GrainTable& table, std::size_t grain, const fs::path& folder) {
+/// scan's; else empty.
+fs::path scan_of(const GrainTable& table, std::size_t grain, const fs::path& folder) {
   std::error_code ignored;
-  for (const fs::path& scan : {fs::path(table.grains[grain]), folder / table.grains[grain]}) {
+  const std::string_view name = text_of_field(table.grains[grain]);
+  for (const fs::path& scan : {fs::path(name), folder / name}) {
     if (fs::is_regular_file(scan, ignored)) return scan;
   }
-  return folder / (table.files.empty() ? table.grains[grain] : table.files[grain]);
+  return {};
 }
 
 /// Returns the table of shapes: the only input, or shape.csv in the only folder; else empty.
@@ -268,7 +269,13 @@ DescribedSample sample_of_table(const std::string& path, const std::vector<std::
       ++sample.left_out;
       continue;
     }
-    add(sample, file_of(table, grain, folder).string(), values, rows);
+    fs::path file = scan_of(table, grain, folder);
+    if (file.empty()) {
+      file = folder / (table.files.empty() ? table.grains[grain] : table.files[grain]);
+    } else if (table.find("scan.volume")) {
+      sample.measured_before.insert(file.string());
+    }
+    add(sample, file.string(), values, rows);
   }
   fill(sample, rows, keys.size());
   check_choice(sample, keys);

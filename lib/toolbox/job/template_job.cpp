@@ -2,6 +2,7 @@
 #include "toolbox/job/template_job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -122,6 +123,20 @@ std::unique_ptr<NamedGrains> grains_of(std::size_t count, NamedGrains::Read read
   return std::make_unique<NamedGrains>("template-", count, 2, std::move(read));
 }
 
+/// Throws if the scan of a template is not the one that the table has measured.
+void check_scan(const DescribedSample& sample, std::size_t grain, double volume) {
+  const std::string& file = sample.files[grain];
+  if (sample.measured_before.count(file) == 0) return;
+  const double diameter = sample.diameters[grain];
+  const double measured = pi / 6.0 * diameter * diameter * diameter;
+  constexpr double rounding = 1e-6;
+  if (std::abs(volume - measured) <= rounding * measured) return;
+  refuse("\"" + file + "\" has the volume " + format_number(volume, 6) + ", and the table " +
+         format_number(measured, 6) +
+         ": it is another scan, or was remeshed with other options. Give the scans, or the meshes "
+         "of the batch, in place of its table.");
+}
+
 GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
                 const SampleTemplates& templates) {
   GrainJob job{options.folder, options.shard, options.format};
@@ -145,8 +160,9 @@ GrainJob job_of(const TemplateJob& options, const DescribedSample& sample,
     const JobFolder& folder = grain.folders.front();
     RemeshOptions remeshed;
     remeshed.node_count = options.nodes;
-    const IndexedMesh mesh = remesh(std::move(grain.scan.mesh), remeshed, grain.execution).mesh;
-    write_mesh(template_mesh(mesh, grain.execution), folder.file_of(grain.name));
+    const RemeshResult made = remesh(std::move(grain.scan.mesh), remeshed, grain.execution);
+    check_scan(sample, templates.grains[grain.scan.place], made.scan.volume);
+    write_mesh(template_mesh(made.mesh, grain.execution), folder.file_of(grain.name));
     return {
         template_row(sample, templates, grain.scan.place, grain.name, folder.name_of(grain.name))};
   };

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct DescribedSample {
   std::vector<double> diameters;   ///< of the spheres of equal volume, length
   Eigen::MatrixXd descriptors;     ///< grains x names
   std::size_t left_out = 0;
+  /// Files that another call has measured; of these, templates have the volume of the diameter.
+  std::set<std::string> measured_before = {};
 };
 
 /// K grains that represent a sample, as files in a folder.
@@ -49,7 +52,7 @@ void require_scans_kept(const TemplateJob& job, const std::vector<std::string>& 
 /// Chooses the templates and writes a mesh of each, templates.csv, sizes.csv and distances.csv, and
 /// mercury_psd.csv for MercuryDPM. `read` returns the closed mesh of a file of the sample, on
 /// several threads at once. Throws as run_job and choose_templates, and for the first template that
-/// cannot be made.
+/// cannot be made, also because its file is not the one that was measured before.
 MadeSample make_templates(
     const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
