@@ -110,6 +110,24 @@ TEST_F(Job, HasTheSameFilesAtAnyNumberOfThreadsInTheOrderOfTheGrains) {
   EXPECT_EQ(content("out1/grain99.txt"), "99");
 }
 
+TEST_F(Job, TablesHaveTheUnitOfTheGrains) {
+  class PointsInMillimetres : public Points {
+   public:
+    using Points::Points;
+    std::string unit() const override { return "mm"; }
+  };
+  GrainJob job = number_job("out");
+  job.tables[1].header = "grain,status,twice [length^2],length [length]\r\n";
+  PointsInMillimetres grains(2);
+  EXPECT_EQ(run_job(job, grains, {1}).done, 2U);
+  EXPECT_TRUE(holds(content("out/other.csv"), "grain,status,twice [mm^2],length [mm]\r\n"));
+  EXPECT_EQ(run_job(job, grains, {1}).done, 2U);
+  Points without(2);
+  job.folder = (folder_ / "without").string();
+  run_job(job, without, {1});
+  EXPECT_TRUE(holds(content("without/other.csv"), job.tables[1].header));
+}
+
 TEST_F(Job, GoesOnWhereItWasCut) {
   Points whole(20);
   GrainJob job = number_job("whole");

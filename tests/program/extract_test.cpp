@@ -480,9 +480,9 @@ TEST_F(Extract, DescribesEachGrainIfAsked) {
   ASSERT_EQ(shapes.size(), 3U);
   for (const auto& [grain, row] : expected) {
     SCOPED_TRACE(grain);
-    EXPECT_NE(row.at("resolution.area.corrected [length^2]"), "");
+    EXPECT_NE(row.at("resolution.area.corrected [mm^2]"), "");
     for (const auto& [name, cell] : row) {
-      if (name == "nodes" || name == "rms_distance [length]") continue;
+      if (name == "nodes" || name == "rms_distance [mm]") continue;
       const std::string& ours = shapes.at(grain).at(name);
       const double value = std::strtod(cell.c_str(), nullptr);
       if (value == 0.0)
@@ -510,11 +510,11 @@ TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {
   ASSERT_EQ(shapes.size(), 3U);
   auto& ball = shapes["sample.nrrd/3"];
   const auto number = [&](const std::string& name) { return std::stod(ball.at(name)); };
-  EXPECT_EQ(number("resolution.voxel_size [length]"), 0.5);
+  EXPECT_EQ(number("resolution.voxel_size [mm]"), 0.5);
   EXPECT_NEAR(number("resolution.voxels_across"), 24.0, 0.2);  // of a radius of 12 voxels
   EXPECT_GE(number("resolution.sphericity_wadell.high"), 1.0);
-  EXPECT_LT(number("resolution.area.low [length^2]"), number("resolution.area.high [length^2]"));
-  EXPECT_EQ(ball.at("resolution.sq.corrected [length]"), "");  // not resolved
+  EXPECT_LT(number("resolution.area.low [mm^2]"), number("resolution.area.high [mm^2]"));
+  EXPECT_EQ(ball.at("resolution.sq.corrected [mm]"), "");  // not resolved
   // As the grain alone.
   EXPECT_EQ(run("extract sample.nrrd dense -q").exit_code, 0);
   EXPECT_EQ(run("describe dense/3.ply -q --voxel-size 0.5 --report ball.csv").exit_code, 0);
@@ -526,7 +526,7 @@ TEST_F(Extract, BatchTellsWhatTheVoxelsDid) {
   ASSERT_NE(place, names.end());
   const double alone = std::stod(records[1][static_cast<std::size_t>(place - names.begin())]);
   // Meshes are written with single precision.
-  EXPECT_NEAR(number("resolution.area.corrected [length^2]") / alone, 1.0, 1e-3);
+  EXPECT_NEAR(number("resolution.area.corrected [mm^2]") / alone, 1.0, 1e-3);
 
   EXPECT_EQ(run("batch sample.nrrd -o none -n 100 -q --describe remesh").exit_code, 0);
   EXPECT_FALSE(holds(content("none/shape.csv"), "resolution."));

@@ -345,6 +345,16 @@ void remove_parts(const GrainJob& job, const std::vector<JobFolder>& folders,
   }
 }
 
+/// Returns the first record of a table with a known unit in place of "length".
+std::string with_unit(std::string header, const std::string& unit) {
+  const std::string open = "[length";
+  for (std::size_t at = header.find(open); !unit.empty() && at != std::string::npos;
+       at = header.find(open, at + 1)) {
+    header.replace(at + 1, open.size() - 1, unit);
+  }
+  return header;
+}
+
 GrainRow row_of(const GrainJob& job, const std::vector<JobFolder>& folders, GrainSource& grains,
                 std::size_t k, const Execution& execution) {
   const std::string name = grains.name(k);
@@ -392,7 +402,9 @@ void require_scans_kept(const GrainJob& job, const GrainSource& grains,
   }
 }
 
-JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host) {
+JobEnd run_job(const GrainJob& asked, GrainSource& grains, const JobHost& host) {
+  GrainJob job = asked;
+  for (JobTable& table : job.tables) table.header = with_unit(table.header, grains.unit());
   const JobFolder whole(job.folder, job.ending, job.shard);
   const std::vector<JobFolder> folders = folders_of(job);
   std::vector<std::string> names(grains.size());

@@ -42,11 +42,13 @@ struct GrainJob {
   /// Folders in the folder, such as n100, each with all files and tables. Empty: no such folders.
   std::vector<std::string> levels = {};
   std::string call = {};  ///< options that must be equal when the job is started again; JSON
-  std::vector<JobTable> tables = {};  ///< of each level; the first is "grains"
-  JobTable last_table = {};           ///< that the caller makes of the first; without a name: none
-  bool has_census = false;            ///< writes GrainSource::census to labels.csv
-  bool reads_pictures = false;        ///< see GrainSource::read
-  bool takes_refused = false;         ///< makes also what is refused, see GrainScan
+  /// Of each level; the first is "grains". Headings in "[length^2]" get GrainSource::unit,
+  /// "[um^2]", if it is known.
+  std::vector<JobTable> tables = {};
+  JobTable last_table = {};     ///< that the caller makes of the first; without a name: none
+  bool has_census = false;      ///< writes GrainSource::census to labels.csv
+  bool reads_pictures = false;  ///< see GrainSource::read
+  bool takes_refused = false;   ///< makes also what is refused, see GrainScan
   /// A job that is done stays done, and its folder takes no other options. False: when it is done,
   /// only its results stay, so that a call makes them anew.
   bool is_kept = true;
