@@ -154,11 +154,22 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   EXPECT_TRUE(exists("hull/a.obj"));
   std::filesystem::remove(path("scans/torn.ply"));
   std::ofstream(path("scans/templates.csv")) << "file,weight_by_number\na.ply,0.3\nb.ply,0.7\n";
-  std::ofstream(path("scans/sizes.csv")) << "1,0\n2,100\n";
+  std::ofstream(path("scans/sizes.csv"), std::ios::binary) << heading + "1,0\r\n2,100\r\n";
   ASSERT_EQ(run("convex scans -k 2 -n 60 -q -o parts --engine bullet").exit_code, 0);
   EXPECT_TRUE(exists("parts/bullet_settle.cpp"));
   EXPECT_EQ(content("parts/templates.csv"), content("scans/templates.csv"));
   EXPECT_EQ(content("parts/sizes.csv"), heading + "1,0\r\n2,100\r\n");
+  // What a person wrote or changed is not replaced.
+  std::ofstream(path("parts/run.py"), std::ios::app) << "# my settings\n";
+  std::filesystem::create_directory(path("mine"));
+  std::ofstream(path("mine/sizes.csv")) << "my sieves,%\n1,0\n2,100\n";
+  expect_refused("",
+                 {{"convex scans -k 2 -n 60 -o parts --engine bullet", 2, "rename it"},
+                  {"clump scans -k 2 -o mine --engine yade", 2, "a sizes.csv of another"},
+                  {"clump scans -k 2 -o scans --engine yade --scale 2", 2, "scaled too"}},
+                 {"mine/run.py", "scans/run.py"});
+  std::filesystem::rename(path("parts/run.py"), path("parts/my_run.py"));
+  EXPECT_EQ(run("convex scans -k 2 -n 60 -q -o parts --engine bullet").exit_code, 0);
   // All lengths are scaled, and --size is the size of all grains.
   ASSERT_EQ(run("clump scans -k 2 -q -o large --engine yade --scale 1000").exit_code, 0);
   EXPECT_EQ(content("large/sizes.csv"), heading + "1000,0\r\n2000,100\r\n");

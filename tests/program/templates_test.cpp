@@ -124,6 +124,9 @@ TEST_F(Templates, ReplaceNoScan) {
                    "would replace the scan \"scans/template-02.stl\""}},
                  {"scans/templates.csv", "scans/template-01.stl", "scans/call.json"});
   EXPECT_EQ(content("scans/template-02.stl"), before);
+  std::ofstream(path("scans/sizes.csv")) << "my sieves,%\n";
+  expect_refused("grow --templates", {{"scans -k 2 -n 60 -o scans", 1, "a sizes.csv of another"}},
+                 {"scans/templates.csv"});
 }
 
 TEST_F(Templates, RefusesWrongCalls) {

@@ -62,6 +62,22 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
                              is_given ? density : engine_density);
 }
 
+/// Throws if what an engine needs would replace files of a person.
+void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
+                         const FrameOptions& frame) {
+  if (arguments.engine.empty()) return;
+  require_own_script(folder);
+  require_own_table(folder, "sizes.csv", GivenSizes::heading());
+  const auto sizes_in = [](const std::string& place) {
+    return (std::filesystem::path(place) / "sizes.csv").string();
+  };
+  if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) return;
+  if (frame.scale == 1.0 && !(frame.size > 0.0)) return;
+  refuse("The folder \"" + folder +
+         "\" has the grains, whose size curve would be scaled too. Give another folder with "
+         "--output.");
+}
+
 }  // namespace
 
 bool ScanInputs::is_sample() const {
@@ -146,7 +162,10 @@ void check_sample_outputs(const std::vector<std::string>& outputs,
 int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
                const FrameOptions& frame, double density, int threads, bool quiet) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
+  const std::vector<std::string> files = checked([&] {
+    check_engine_folder(arguments, job.folder, frame);
+    return input_files(arguments.inputs);
+  });
   const std::unique_ptr<GrainSource> inputs = open_inputs(
       files, {}, arguments.shard, quiet,
       "call wscvt extract VOLUME OUT --parts first, and give OUT instead of the volume");

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/exchange/engine_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/input_file.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/report/json.h"
 
@@ -98,6 +100,17 @@ std::string engine_names(EngineShapes shapes) {
 }
 
 void check_engine(const std::string& engine, EngineShapes shapes) { engine_row(engine, shapes); }
+
+void require_own_script(const std::string& folder) {
+  const std::string script = file_content((std::filesystem::path(folder) / "run.py").string());
+  const bool is_own = std::any_of(engines().begin(), engines().end(),
+                                  [&](const EngineRow& row) { return script == row.script; });
+  if (script.empty() || is_own) return;
+  refuse("The folder \"" + folder +
+         "\" has a run.py that was changed, or that is of another program. It would be replaced: "
+         "rename it, or give another folder with " +
+         mention("output") + ".");
+}
 
 std::string_view engine_format(EngineShapes shapes) {
   return shapes == EngineShapes::Clumps ? "csv" : "obj";

@@ -18,6 +18,10 @@ std::string engine_names(EngineShapes shapes);
 /// Throws Error(InvalidInput), with the names, unless the engine takes these shapes.
 void check_engine(const std::string& engine, EngineShapes shapes);
 
+/// Throws Error(InvalidInput) if the folder has a run.py that is not as write_engine_folder writes
+/// it for any engine, because a person changed it or it is of another program.
+void require_own_script(const std::string& folder);
+
 /// Returns the ending of the files of grains in the folder of an engine, without the point: "csv"
 /// for clumps, "obj" for parts. The files are in the principal frame.
 std::string_view engine_format(EngineShapes shapes);

@@ -110,11 +110,15 @@ std::vector<std::string> summary_lines(const TemplateJob& job, const DescribedSa
   return lines;
 }
 
+std::string distance_header() {
+  return csv_record({"descriptor", "by_number", "random_by_number", "by_mass", "random_by_mass"});
+}
+
 std::string distance_table(const TemplateJob& job, const SampleTemplates& templates) {
   std::vector<std::vector<std::string>> rows =
       distance_rows(job, templates, [](double value) { return format_exact(value); });
-  rows.front() = {"descriptor", "by_number", "random_by_number", "by_mass", "random_by_mass"};
-  std::string table;
+  rows.erase(rows.begin());
+  std::string table = distance_header();
   for (const std::vector<std::string>& row : rows) table += csv_record(row);
   return table;
 }
@@ -223,6 +227,8 @@ MadeSample make_templates(
     const TemplateJob& options, const DescribedSample& sample,
     const std::function<IndexedMesh(const std::string& file, const Execution& execution)>& read,
     const JobHost& host) {
+  require_own_table(options.folder, "sizes.csv", GivenSizes::heading());
+  require_own_table(options.folder, "distances.csv", distance_header());
   const SampleTemplates templates = choose_templates(sample.descriptors, masses_of(sample),
                                                      options.options, Execution(host.threads));
   const NamedGrains::Read read_chosen = [&](std::size_t k, const Execution& execution) {

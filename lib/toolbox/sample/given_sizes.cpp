@@ -75,8 +75,12 @@ GivenSizes::GivenSizes(std::vector<double> diameters, std::vector<double> percen
   for (double& number : numbers_) number /= numbers_.back();
 }
 
+std::string GivenSizes::heading() {
+  return csv_record({"equivalent_diameter [length]", "finer_by_mass [%]"});
+}
+
 std::string GivenSizes::table(double scale) const {
-  std::string text = csv_record({"equivalent_diameter [length]", "finer_by_mass [%]"});
+  std::string text = heading();
   for (std::size_t k = 0; k < diameters_.size(); ++k) {
     text += csv_record({format_exact(scale * diameters_[k]), format_exact(percentages_[k])});
   }

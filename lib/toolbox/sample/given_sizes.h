@@ -19,6 +19,8 @@ class GivenSizes {
   /// in [0, 1].
   double diameter(double fraction) const;
 
+  /// The first record of table().
+  static std::string heading();
   /// Returns a table that read_given_sizes reads, with a heading, commas and decimal points.
   /// `scale` multiplies the diameters.
   std::string table(double scale) const;
