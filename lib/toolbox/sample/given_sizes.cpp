@@ -51,7 +51,7 @@ GivenSizes::GivenSizes(std::vector<double> diameters, std::vector<double> percen
   const std::size_t count = diameters_.size();
   if (count < 2 || percentages_.size() != count) {
     refuse("A size curve has " + std::to_string(count) + " diameters and " +
-           std::to_string(percentages_.size()) + " percentages_. Give two or more of each.");
+           std::to_string(percentages_.size()) + " percentages. Give two or more of each.");
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (!(diameters_[k] > (k == 0 ? 0.0 : diameters_[k - 1])) ||
