@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "filters.h"
 
+#include <Eigen/LU>
 #include <QDate>
 #include <QDir>
 #include <QFileInfo>
@@ -158,9 +159,12 @@ std::optional<std::string> remark_on_missing(const ParameterList& parameters,
          " missing from the script or not readable. The default was used.";
 }
 
-/// Returns a function that rounds a result as a layer stores it. The layers must outlive it.
-auto as_layer(const Layers& layers) {
-  return [&layers](const RemeshResult& result) { return layers.as_held(result.mesh); };
+/// Returns a function that gives a result as a layer with this transform stores it. The layers must
+/// outlive it.
+auto as_layer(const Layers& layers, const Eigen::Matrix4d& transform) {
+  return [&layers, from_shown = Eigen::Matrix4d(transform.inverse())](const RemeshResult& result) {
+    return layers.as_held(transformed(result.mesh, from_shown));
+  };
 }
 
 FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValues& values,
@@ -174,16 +178,18 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
       read_remesh_settings(with_full_names(parameters, values, folder_of(scan)));
   const std::string& report = settings.result.report_file;
   settings.options.measures.repaired_scan = !report.empty() && shows_scan(report);
-  settings.options.measures.written = as_layer(layers);
-  const Eigen::Matrix4d transform = layers.transform(scan.number);
-  IndexedMesh mesh = layers.mesh(scan.number);
+  // Remeshed and measured as it is shown, where the result goes.
+  const Eigen::Matrix4d transform =
+      layers.transform(settings.new_layer ? scan.number : current.number);
+  settings.options.measures.written = as_layer(layers, transform);
+  IndexedMesh mesh = transformed(layers.mesh(scan.number), transform);
   const MeshAttributes attributes =
       settings.keep_attributes ? layers.attributes(scan.number) : MeshAttributes();
   const IndexedMesh read = attributes.empty() ? IndexedMesh() : mesh;
   RemeshResult result = remesh(std::move(mesh), settings.options, execution);
   warn_of_pictures(attributes.texture, result.warnings);
-  const LayerContent content =
-      content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
+  LayerContent content = content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
+  content.mesh = settings.options.measures.written(result);
   // Files first: if they cannot be written, the document stays unchanged.
   save_report(report, scan.label, result);
   if (!settings.coefficients_file.empty()) {
@@ -215,6 +221,11 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
         "'" + current.label + "' is a remesh of '" + scan.label +
         "'. The scan was remeshed again. To remesh the remesh itself, duplicate its layer.");
   }
+  if (transform != Eigen::Matrix4d::Identity()) {
+    notes.push_back(
+        "The layer has a transform. All measures are those of the grain as shown. MeshLab saves a "
+        "mesh without its transform: apply Matrix: Freeze Current Matrix before you save.");
+  }
   add_file_note(notes, "Report in ", settings.result.report_file);
   add_file_note(notes, "Coefficients in ", settings.coefficients_file);
   FilterOutcome outcome;
@@ -235,12 +246,13 @@ FilterOutcome create_layer(const ParameterList& parameters, const ParameterValue
   const Stopwatch stopwatch;
   CreationSettings settings =
       read_creation_settings(with_full_names(parameters, values, folder_at_hand(layers)));
-  settings.options.measures.written = as_layer(layers);
+  const Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  settings.options.measures.written = as_layer(layers, transform);
   const RemeshResult result = remesh(settings.surface, settings.options, execution);
   const std::string name = surface_name(settings.surface);
   save_report(settings.result.report_file, name, result);
   layers.add(remesh_label(name, nodes_name(result.options), result.mesh.points.size()),
-             content_of(result, settings.result), Eigen::Matrix4d::Identity());
+             content_of(result, settings.result), transform);
 
   std::vector<std::string> notes;
   add_file_note(notes, "Report in ", settings.result.report_file);

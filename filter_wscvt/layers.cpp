@@ -46,13 +46,17 @@ Layer current_layer(const Layers& layers) {
   return *current;
 }
 
-IndexedMesh shown_mesh(const Layers& layers, int number) {
-  IndexedMesh mesh = layers.mesh(number);
-  const Eigen::Matrix4d transform = layers.transform(number);
+IndexedMesh transformed(IndexedMesh mesh, const Eigen::Matrix4d& transform) {
+  // Without a transform, not even the sign of a zero changes.
+  if (transform == Eigen::Matrix4d::Identity()) return mesh;
   for (Vector3& point : mesh.points) {
     point = (transform.topLeftCorner<3, 3>() * point + transform.topRightCorner<3, 1>()).eval();
   }
   return mesh;
+}
+
+IndexedMesh shown_mesh(const Layers& layers, int number) {
+  return transformed(layers.mesh(number), layers.transform(number));
 }
 
 void set_source(Layers& layers, int number, int source) {

@@ -77,6 +77,9 @@ class Layers {
 /// The current layer. Throws Error(InvalidInput) when there is none.
 Layer current_layer(const Layers& layers);
 
+/// Returns a mesh with its points moved by a transform.
+IndexedMesh transformed(IndexedMesh mesh, const Eigen::Matrix4d& transform);
+
 /// Returns a layer's points with its transform applied.
 IndexedMesh shown_mesh(const Layers& layers, int number);
 

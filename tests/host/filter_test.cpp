@@ -101,6 +101,14 @@ MeshModel& add_layer(MeshDocument& document, const IndexedMesh& mesh) {
   return layer;
 }
 
+void set_transform(MeshModel& layer, const Eigen::Matrix4d& transform) {
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      layer.cm.Tr.ElementAt(row, column) = static_cast<Scalarm>(transform(row, column));
+    }
+  }
+}
+
 /// Sets a parameter from its text, as MeshLab does for a script.
 void set_from_text(RichParameterList& list, const std::string& name, const std::string& text) {
   RichParameter& parameter = list.getParameterByName(QString::fromStdString(name));
@@ -498,6 +506,41 @@ TEST(Filter, ReplacesTheScanWhenAsked) {
   scan.updateDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
   for (const auto& face : scan.cm.face) {
     for (int k = 0; k < 3; ++k) EXPECT_NE(face.cFFp(k), &face);
+  }
+}
+
+TEST(Filter, RemeshesTheScanAsItIsShown) {
+  // A mirror image, three times as long along an oblique axis, elsewhere.
+  Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  transform.topLeftCorner<3, 3>() << -1.0, 0.5, 0.0, 0.25, 3.0, 0.0, 0.0, 0.5, 1.0;
+  transform.topRightCorner<3, 1>() = Vector3(8.0, -4.0, 2.0);
+  RemeshOptions options;
+  options.node_count = 200;
+  for (const bool new_layer : {true, false}) {
+    LoadedFilter loaded;
+    MeshDocument document;
+    MeshModel& scan = add_layer(document, grain());
+    set_transform(scan, transform);
+    const RemeshResult expected =
+        remesh(filter::transformed(filter::to_indexed_mesh(scan.cm), transform), options);
+    RichParameterList parameters = loaded.parameters(document);
+    parameters.setValue("NodeCount", IntValue(200));
+    parameters.setValue("NewLayer", BoolValue(new_layer));
+    ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+    MeshModel& result = *document.mm();
+    EXPECT_TRUE(result.cm.Tr == scan.cm.Tr);
+    const IndexedMesh shown = filter::transformed(filter::to_indexed_mesh(result.cm), transform);
+    ASSERT_EQ(shown.points.size(), expected.mesh.points.size());
+    for (std::size_t v = 0; v < shown.points.size(); ++v) {
+      // Floats of coordinates below 4, three times as far apart.
+      EXPECT_LT((shown.points[v] - expected.mesh.points[v]).norm(), 2e-6);
+    }
+    EXPECT_TRUE(shown.triangles == expected.mesh.triangles);
+    const std::string log = loaded.log().join("\n").toStdString();
+    for (const double size : {expected.scan.volume, expected.remesh.area}) {
+      EXPECT_NE(log.find(" " + format_number(size, 5) + " "), std::string::npos) << size << log;
+    }
+    EXPECT_NE(log.find("Matrix: Freeze Current Matrix"), std::string::npos) << log;
   }
 }
 
@@ -1348,19 +1391,14 @@ TEST(DescriptorFilter, MeasuresBothLayersAsTheyAreShown) {
   LoadedFilter loaded(descriptor_menu_text);
   MeshDocument document;
   // Turned, moved and half as large by its transform; and the same points without one.
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
-  const Vector3 shift(3.0, -1.0, 2.0);
-  IndexedMesh there = grain();
-  for (Vector3& p : there.points) p = (0.5 * (turn * p) + shift).eval();
+  Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+  transform.topLeftCorner<3, 3>() =
+      0.5 * Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  transform.topRightCorner<3, 1>() = Vector3(3.0, -1.0, 2.0);
+  const IndexedMesh there = filter::transformed(grain(), transform);
   MeshModel& moved_layer = add_layer(document, grain());
   moved_layer.setLabel("moved");
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      moved_layer.cm.Tr.ElementAt(row, column) = static_cast<Scalarm>(0.5 * turn(row, column));
-    }
-    moved_layer.cm.Tr.ElementAt(row, 3) = static_cast<Scalarm>(shift[row]);
-  }
+  set_transform(moved_layer, transform);
   MeshModel& plain = add_layer(document, there);
   plain.setLabel("plain");
   const QTemporaryDir folder;

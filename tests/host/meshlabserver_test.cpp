@@ -20,6 +20,7 @@
 #include "support/test_shapes.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/descriptors.h"
+#include "wscvt/measures/mesh_quality.h"
 #include "wscvt/mesh_files/mesh_io.h"
 #include "wscvt/remesh.h"
 #include "wscvt/remesh/remesh_options.h"
@@ -255,14 +256,16 @@ std::vector<Advice> all_advice() {
   };
 }
 
-/// Remeshes what other filters make of the input of a call before.
+/// Remeshes what other filters make of the input of a call before. `then` are filters for the
+/// result.
 Outcome run_after(const QString& steps, const std::map<std::string, std::string>& parameters,
-                  const QTemporaryDir& folder, const QString& output) {
+                  const QTemporaryDir& folder, const QString& output, const QString& then = {}) {
   const QString script = folder.filePath("script.mlx");
   write_script(parameters, script);
   QFile file(script);
   EXPECT_TRUE(file.open(QIODevice::ReadWrite));
   QString text = QString::fromUtf8(file.readAll());
+  text.insert(text.indexOf("</FilterScript>"), then);
   text.insert(text.indexOf(" <filter"), steps);
   file.seek(0);
   file.write(text.toUtf8());
@@ -299,6 +302,36 @@ TEST_P(ServerAdvises, WhatLeadsToARemesh) {
 
 INSTANTIATE_TEST_SUITE_P(, ServerAdvises, ::testing::ValuesIn(all_advice()),
                          [](const auto& test) { return test.param.name; });
+
+TEST(Server, AdvisesToFreezeTheTransformBeforeTheMeshIsSaved) {
+  QTemporaryDir folder;
+  write_as_it_is(grain(), folder.filePath("input.ply"));
+  // meshlabserver wants every parameter, in their order.
+  QString scaled_along_z = " <filter name=\"Matrix: Set from translation/rotation/scale\">\n";
+  const auto add = [&](const char* name, const char* type, const char* value) {
+    scaled_along_z +=
+        QString("  <Param name=\"%1\" type=\"%2\" value=\"%3\"/>\n").arg(name, type, value);
+  };
+  for (const char* name :
+       {"translationX", "translationY", "translationZ", "rotationX", "rotationY", "rotationZ"}) {
+    add(name, "RichFloat", "0");
+  }
+  for (const char* name : {"scaleX", "scaleY"}) add(name, "RichFloat", "1");
+  add("scaleZ", "RichFloat", "3");
+  for (const char* name : {"compose", "Freeze", "allLayers"}) add(name, "RichBool", "false");
+  scaled_along_z += " </filter>\n";
+  const QString output = folder.filePath("remeshed.ply");
+  const Outcome outcome = run_after(scaled_along_z, {}, folder, output,
+                                    " <filter name=\"Matrix: Freeze Current Matrix\"/>\n");
+  SCOPED_TRACE(outcome.output.toStdString());
+  EXPECT_TRUE(outcome.output.contains("apply Matrix: Freeze Current Matrix before you save"));
+  ASSERT_TRUE(QFile::exists(output));
+  const IndexedMesh mesh = read_mesh(output.toStdString());
+  const double volume = 3.0 * describe_shape(grain(), Execution(1)).volume;
+  EXPECT_NEAR(describe_shape(mesh, Execution(1)).volume / volume, 1.0, 1e-6);
+  // What the filter was asked for by default, of what is shown.
+  EXPECT_NEAR(measure_quality(mesh).edge_ratio.mean, 1.1, 0.01);
+}
 
 TEST(Server, AdvisesASurfaceOfPointsThatLieBehindOthers) {
   // A grain's points, and strays inside it as scanners leave them.
