@@ -137,7 +137,7 @@ void set_colours(Elements& elements, const std::vector<MeshAttribute>& attribute
 }
 
 /// Swaps the vertices, edges and faces of two VCG meshes with optional components in their
-/// containers. The attributes of `kept` are resized to match.
+/// containers. The attributes of the vertices, edges and faces of `kept` are deleted with them.
 template <class VcgMesh>
 void exchange_elements(VcgMesh& kept, VcgMesh& other) {
   std::swap(kept.vert, other.vert);
@@ -152,9 +152,10 @@ void exchange_elements(VcgMesh& kept, VcgMesh& other) {
     mesh->vert._updateOVP(mesh->vert.begin(), mesh->vert.end());
     mesh->face._updateOVP(mesh->face.begin(), mesh->face.end());
   }
-  for (const auto& attribute : kept.vert_attr) attribute._handle->Resize(kept.vert.size());
-  for (const auto& attribute : kept.edge_attr) attribute._handle->Resize(kept.edge.size());
-  for (const auto& attribute : kept.face_attr) attribute._handle->Resize(kept.face.size());
+  for (auto* attributes : {&kept.vert_attr, &kept.edge_attr, &kept.face_attr}) {
+    for (const auto& attribute : *attributes) delete attribute._handle;
+    attributes->clear();
+  }
 }
 
 }  // namespace wscvt::filter

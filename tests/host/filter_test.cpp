@@ -487,6 +487,8 @@ TEST(Filter, ReplacesTheScanWhenAsked) {
   scan.updateDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO |
                       MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_FACECOLOR |
                       MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTCOLOR);
+  vcg::tri::Allocator<CMeshO>::AddPerVertexAttribute<float>(scan.cm, "label");
+  vcg::tri::Allocator<CMeshO>::AddPerFaceAttribute<float>(scan.cm, "label");
   const auto transform = scan.cm.Tr;
   RichParameterList parameters = loaded.parameters(document);
   parameters.setValue("NodeCount", IntValue(250));
@@ -503,6 +505,8 @@ TEST(Filter, ReplacesTheScanWhenAsked) {
   // What described the old elements is gone, and what the host asks for next can be made anew.
   EXPECT_FALSE(scan.hasDataMask(MeshModel::MM_WEDGTEXCOORD));
   EXPECT_FALSE(scan.hasDataMask(MeshModel::MM_VERTCOLOR));
+  EXPECT_TRUE(scan.cm.vert_attr.empty()) << "which MeshLab writes into files";
+  EXPECT_TRUE(scan.cm.face_attr.empty());
   scan.updateDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
   for (const auto& face : scan.cm.face) {
     for (int k = 0; k < 3; ++k) EXPECT_NE(face.cFFp(k), &face);
