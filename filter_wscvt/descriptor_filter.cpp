@@ -87,7 +87,8 @@ DescriptorSettings read_descriptor_settings(const ParameterValues& values) {
   return settings;
 }
 
-std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
+std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds,
+                               const std::vector<Sentence>& more) {
   std::vector<std::string> lines = {"Layer       " + grain_line(measures.grain)};
   const auto append = [&](const std::vector<std::vector<std::string>>& table) {
     for (std::string& line : log_table(table)) lines.push_back(std::move(line));
@@ -105,6 +106,7 @@ std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds) {
   append(mass_rows(masses));
   lines.push_back(seconds_line(seconds));
   std::vector<std::string> warnings;
+  for (const Sentence& warning : more) warnings.push_back(shown_words(warning));
   for (const Sentence& remark : remarks(measures)) warnings.push_back(shown_words(remark));
   return as_log(warnings, lines);
 }

@@ -26,7 +26,8 @@ struct DescriptorSettings {
 /// Throws Error(InvalidInput) for values that do not fit and file names with other extensions.
 DescriptorSettings read_descriptor_settings(const ParameterValues& values);
 
-/// As log_lines of the remesher.
-std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds);
+/// As log_lines of the remesher. `more` are warnings before those of the measures.
+std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds,
+                               const std::vector<Sentence>& more = {});
 
 }  // namespace wscvt::filter

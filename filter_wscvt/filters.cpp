@@ -183,11 +183,14 @@ FilterOutcome remesh_layer(const ParameterList& parameters, const ParameterValue
       layers.transform(settings.new_layer ? scan.number : current.number);
   settings.options.measures.written = as_layer(layers, transform);
   IndexedMesh mesh = transformed(layers.mesh(scan.number), transform);
+  std::vector<Sentence> warnings;
+  warn_of_lost_digits(layers, scan, warnings);
   const MeshAttributes attributes =
       settings.keep_attributes ? layers.attributes(scan.number) : MeshAttributes();
   const IndexedMesh read = attributes.empty() ? IndexedMesh() : mesh;
   RemeshResult result = remesh(std::move(mesh), settings.options, execution);
-  warn_of_pictures(attributes.texture, result.warnings);
+  warn_of_pictures(attributes.texture, warnings);
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   LayerContent content = content_of(result, settings, read, attributes, execution.part(1.0, 1.0));
   content.mesh = settings.options.measures.written(result);
   // Files first: if they cannot be written, the document stays unchanged.
@@ -268,9 +271,12 @@ FilterOutcome describe_layer(const ParameterList& parameters, const ParameterVal
   const DescriptorSettings settings =
       read_descriptor_settings(with_full_names(parameters, values, folder_at_hand(layers)));
   const Layer current = current_layer(layers);
+  std::vector<Sentence> warnings;
+  warn_of_lost_digits(layers, current, warnings);
   std::optional<NamedMesh> reference;
   if (!settings.reference_layer.empty()) {
     const Layer layer = layer_named(layers, settings.reference_layer, "ReferenceLayer");
+    warn_of_lost_digits(layers, layer, warnings);
     reference = NamedMesh{layer.label, shown_mesh(layers, layer.number)};
   }
   const GrainMeasures result = measure_grain({current.label, shown_mesh(layers, current.number)},
@@ -278,7 +284,7 @@ FilterOutcome describe_layer(const ParameterList& parameters, const ParameterVal
   save_report(settings.report_file, current.label, result);
 
   FilterOutcome outcome;
-  outcome.log = log_lines(result, stopwatch.seconds());
+  outcome.log = log_lines(result, stopwatch.seconds(), warnings);
   if (!settings.report_file.empty()) outcome.log.push_back({"Report in " + settings.report_file});
   for (const DescriptorValue& row : list_descriptors(result.grain.descriptors)) {
     outcome.values[row.key] = row.value;

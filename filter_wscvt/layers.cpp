@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "node_parameters.h"
-#include "wscvt/base/error.h"
+#include "wscvt/repair/coordinates.h"
 
 namespace wscvt::filter {
 
@@ -57,6 +57,14 @@ IndexedMesh transformed(IndexedMesh mesh, const Eigen::Matrix4d& transform) {
 
 IndexedMesh shown_mesh(const Layers& layers, int number) {
   return transformed(layers.mesh(number), layers.transform(number));
+}
+
+void warn_of_lost_digits(const Layers& layers, const Layer& layer,
+                         std::vector<Sentence>& warnings) {
+  if (layers.transform(layer.number) == Eigen::Matrix4d::Identity()) return;
+  const std::string warning =
+      single_precision_warning(layers.mesh(layer.number), "'" + layer.label + "' as stored");
+  if (!warning.empty()) warnings.emplace_back(warning);
 }
 
 void set_source(Layers& layers, int number, int source) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wscvt/base/error.h"
 #include "wscvt/base/indexed_mesh.h"
 #include "wscvt/base/mesh_attributes.h"
 
@@ -82,6 +83,10 @@ IndexedMesh transformed(IndexedMesh mesh, const Eigen::Matrix4d& transform);
 
 /// Returns a layer's points with its transform applied.
 IndexedMesh shown_mesh(const Layers& layers, int number);
+
+/// Adds a warning if the points of a layer with a transform lost digits where they are stored.
+/// Without a transform the library warns.
+void warn_of_lost_digits(const Layers& layers, const Layer& layer, std::vector<Sentence>& warnings);
 
 /// Notes that a layer is a remesh of another, so that source_of finds it.
 void set_source(Layers& layers, int number, int source);

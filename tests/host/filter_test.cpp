@@ -548,6 +548,23 @@ TEST(Filter, RemeshesTheScanAsItIsShown) {
   }
 }
 
+TEST(Filter, WarnsOfDigitsThatWereLostWhereALayerIsStored) {
+  // Stored far away, shown at the origin.
+  for (const QString& menu_text : {filter_menu_text, descriptor_menu_text}) {
+    LoadedFilter loaded(menu_text);
+    MeshDocument document;
+    const Vector3 place = Vector3::Constant(std::ldexp(1.0, 20));
+    Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
+    transform.topRightCorner<3, 1>() = -place;
+    set_transform(add_layer(document, moved(grain(), place)), transform);
+    ASSERT_TRUE(loaded.apply(document, loaded.parameters(document))) << loaded.message();
+    const std::string log = loaded.log().join("\n").toStdString();
+    EXPECT_EQ(log.find("Warning: 'scan.ply' as stored is so far") != std::string::npos,
+              sizeof(Scalarm) == sizeof(float))
+        << log;
+  }
+}
+
 TEST(Filter, GivesWhatTheLibraryGives) {
   LoadedFilter loaded;
   MeshDocument document;
