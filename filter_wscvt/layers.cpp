@@ -82,27 +82,29 @@ std::optional<Layer> source_of(const Layers& layers, int number) {
 
 Layer layer_named(const Layers& layers, const std::string& name, const std::string& parameter) {
   const std::vector<Layer> all = layers.list();
-  // As in the list of layers: "0 scan.ply", with a star if the layer was changed.
-  static const QRegularExpression listed(QStringLiteral("^\\s*(\\d+)(?:\\s+(.*?))?\\s*\\*?\\s*$"));
-  const QRegularExpressionMatch match = listed.match(QString::fromStdString(name));
-  const auto is_listed = [&](const Layer& layer) {
-    const std::string label = match.captured(2).toStdString();
-    return match.hasMatch() && match.captured(1).toInt() == layer.number &&
-           (label.empty() || label == layer.label);
+  // As in the list of layers, which has a star behind a layer that was changed.
+  const auto plain = [](const std::string& text) {
+    static const QRegularExpression star(QStringLiteral("\\*\\s*$"));
+    return QString::fromStdString(text).remove(star).simplified().toStdString();
   };
+  const std::string wanted = plain(name);
   // The first interpretation of the name that matches a layer is used.
   const std::vector<std::function<bool(const Layer&)>> readings = {
-      [&](const Layer& layer) { return layer.label == name; },
-      [&](const Layer& layer) { return layer.label + " *" == name || layer.label + "*" == name; },
-      is_listed,
-      [&](const Layer& layer) { return without_ending(layer.label) == without_ending(name); }};
+      [&](const Layer& layer) {
+        return plain(layer.label) == wanted ||
+               plain(std::to_string(layer.number) + " " + layer.label) == wanted;
+      },
+      [&](const Layer& layer) {
+        return std::to_string(layer.number) == wanted ||
+               without_ending(plain(layer.label)) == without_ending(wanted);
+      }};
   for (const auto& fits : readings) {
     const auto found = std::find_if(all.begin(), all.end(), fits);
     if (found == all.end()) continue;
     if (std::find_if(found + 1, all.end(), fits) != all.end()) {
-      refuse("Two layers are called '" + name +
-             "'. Give the number of a layer. It is before the name in the list of layers. Nothing "
-             "was changed.");
+      refuse("Two layers could be '" + name +
+             "'. Give the number and the name of one, as in the list of layers: " +
+             std::to_string(found->number) + " " + found->label + ". Nothing was changed.");
     }
     return *found;
   }

@@ -97,8 +97,8 @@ std::optional<Layer> source_of(const Layers& layers, int number);
 
 /// Finds a layer by `name`: its label with or without the file's ending, its number, or both as in
 /// the list of layers ("0 scan.ply", with a star if it was changed). Throws Error(InvalidInput)
-/// with the list of labels if no layer or several layers match. `parameter` is the parameter with
-/// the name.
+/// with the list of labels if no layer matches, with a name that matches one if several do.
+/// `parameter` is the parameter with the name.
 Layer layer_named(const Layers& layers, const std::string& name, const std::string& parameter);
 
 /// Removes a file's ending from a label: "sand.ply" becomes "sand", but "sand 0.5" stays.

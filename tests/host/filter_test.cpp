@@ -1388,6 +1388,29 @@ TEST(DescriptorFilter, FindsTheReferenceHoweverItsLayerIsCalled) {
   }
 }
 
+TEST(DescriptorFilter, TellsNamesOfDigitsFromNumbers) {
+  LoadedFilter loaded(descriptor_menu_text);
+  MeshDocument document;
+  MeshModel& first = add_layer(document, grain());
+  MeshModel& second = add_layer(document, sphere());
+  // More than an int holds, and the number of the other layer.
+  second.setLabel("20240101123000.ply");
+  const std::string number = std::to_string(second.id());
+  first.setLabel(QString::fromStdString(number + ".ply"));
+  RichParameterList parameters = loaded.parameters(document);
+  set_from_text(parameters, "ReferenceLayer", "20240101123000");
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  EXPECT_TRUE(loaded.log().join("\n").contains("Reference   20240101123000.ply"));
+  set_from_text(parameters, "ReferenceLayer", number);
+  EXPECT_FALSE(loaded.apply(document, parameters));
+  const std::string advised = std::to_string(first.id()) + " " + number + ".ply";
+  expect_sentence(QString::fromStdString(loaded.message()), {"two layers", ": " + advised + "."});
+  set_from_text(parameters, "ReferenceLayer", advised);
+  ASSERT_TRUE(loaded.apply(document, parameters)) << loaded.message();
+  EXPECT_TRUE(
+      loaded.log().join("\n").contains(QString::fromStdString("Reference   " + number + ".ply")));
+}
+
 TEST(DescriptorFilter, LogIsNoWiderThanThePanel) {
   LoadedFilter loaded(descriptor_menu_text);
   MeshDocument document;
