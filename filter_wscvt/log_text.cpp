@@ -151,15 +151,15 @@ std::string shown_sentence(const std::string& sentence) {
 
 namespace {
 
-/// The parameters of all filters and their labels.
-std::map<std::string, std::string> labels_by_name() {
-  std::map<std::string, std::string> labels;
+/// The parameters of all filters.
+std::map<std::string, FilterParameter> parameters_by_name() {
+  std::map<std::string, FilterParameter> parameters;
   for (const Filter& filter : all_filters()) {
     for (const FilterParameter& parameter : filter.parameters) {
-      labels[parameter.name] = parameter.label;
+      parameters[parameter.name] = parameter;
     }
   }
-  return labels;
+  return parameters;
 }
 
 /// The parameters that are options of the program, by the option's key.
@@ -183,25 +183,30 @@ const std::map<std::string_view, const char*>& names_by_option() {
   return names;
 }
 
-/// Returns the value of an option as the dialog shows it, if it is one of the enumeration's.
+/// Returns the value of an option as the dialog shows it, if it is one of the enumeration's. The
+/// dialog has other words in brackets, because its choices are those of both methods.
 template <class Enumeration>
-void show_value(const NamedOption& option, std::string& shown) {
+void show_value(const NamedOption& option, const FilterParameter& parameter, std::string& shown) {
   if (EnumerationTable<Enumeration>::key != option.key) return;
   for (const auto& row : enumerators<Enumeration>()) {
-    if (row.key == option.value) shown = capitalised(row.label);
+    if (row.key != option.value) continue;
+    for (const std::string& choice : parameter.choices) {
+      if (short_label(choice) == short_label(row.label)) shown = choice;
+    }
   }
 }
 
 /// Returns an option as the window shows it: "\"Method: On the scan\"".
 std::string shown_option(const NamedOption& option,
-                         const std::map<std::string, std::string>& labels) {
+                         const std::map<std::string, FilterParameter>& parameters) {
   const auto name = names_by_option().find(option.key);
   if (name == names_by_option().end()) return "wscvt " + Sentence(option).text();
+  const FilterParameter& parameter = parameters.at(name->second);
   std::string value = option.value == "true" ? "" : option.value;
-  show_value<Method>(option, value);
-  show_value<ScanPlacement>(option, value);
-  show_value<PublishedPlacement>(option, value);
-  return "\"" + labels.at(name->second) + (value.empty() ? "" : ": " + value) + "\"";
+  show_value<Method>(option, parameter, value);
+  show_value<ScanPlacement>(option, parameter, value);
+  show_value<PublishedPlacement>(option, parameter, value);
+  return "\"" + parameter.label + (value.empty() ? "" : ": " + value) + "\"";
 }
 
 /// Returns the text with the label before a script parameter: "Parameter \"Report file\"
@@ -217,10 +222,10 @@ std::string with_label(const std::string& text, const std::string& name, const s
 }  // namespace
 
 std::string shown_words(const Sentence& sentence) {
-  const std::map<std::string, std::string> labels = labels_by_name();
+  const std::map<std::string, FilterParameter> parameters = parameters_by_name();
   std::string text =
-      sentence.in([&](const NamedOption& option) { return shown_option(option, labels); });
-  for (const auto& [name, label] : labels) text = with_label(text, name, label);
+      sentence.in([&](const NamedOption& option) { return shown_option(option, parameters); });
+  for (const auto& [name, parameter] : parameters) text = with_label(text, name, parameter.label);
   return text;
 }
 

@@ -231,7 +231,7 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
                                const std::vector<std::string>& notes) {
   std::vector<std::string> lines = short_table(result);
   const std::vector<std::string> report = report_lines(result);
-  if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs"});
+  if (result.input.input_vertices > 0) append_topics(lines, report, {"Repairs", "Handles"});
   append_topics(lines, report, {"Node count"});
   if (!result.vertex_distances.empty()) {
     lines.push_back(nodes_line(quality_values(result, VertexQuality::OriginalDistance)));

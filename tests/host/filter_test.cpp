@@ -825,6 +825,21 @@ TEST(Filter, LogHoldsCountsInFull) {
   }
 }
 
+TEST(Filter, LogSaysWhereHandlesWereCutAsItsWarningPromises) {
+  RemeshResult result;
+  result.input.input_vertices = 1000;
+  OnScanReport report;
+  report.handles.cut.resize(1);
+  report.handles.cut[0].length = 0.5;
+  report.handles.cut[0].place = Vector3(1.25, -2.5, 3.75);
+  result.method = report;
+  std::string log;
+  for (const filter::LogLine& line : filter::log_lines(result, 0.1)) log += line.text + "\n";
+  EXPECT_NE(log.find("Handles     1 handle cut and closed: loop of 0.5 at (1.25, -2.5, 3.75)"),
+            std::string::npos)
+      << log;
+}
+
 TEST(Filter, LogHoldsTheSmallestAngleAndTheMeanEdgeRatioOfBothMeshes) {
   RemeshResult result;
   result.input.input_vertices = 500;
@@ -940,6 +955,8 @@ TEST(Filter, SentencesNameWhatIsOnTheScreen) {
   EXPECT_EQ(shown("Raise " + mention("degree") + ", or use " + mention(Method::OnScan) + "."),
             "Raise \"Degree of the SH series\", or use \"Method: On the scan\".");
   EXPECT_EQ(shown(mention(PublishedPlacement::Surface)), "\"Node placement: On the surface\"");
+  EXPECT_EQ(shown(mention(ScanPlacement::Fitted)),
+            "\"Node placement: Fitted (on the scan, volume exact)\"");
   // Options that only the program has.
   EXPECT_EQ(shown("use " + mention("shrink-wrap", "5") + " and"), "use wscvt --shrink-wrap 5 and");
   EXPECT_EQ(shown("(" + mention("max-handle-loop") + ")."), "(wscvt --max-handle-loop).");
