@@ -52,8 +52,9 @@ step "Remeshing $mesh"
 if command -v meshlabserver > /dev/null; then
   # meshlabserver ends with 0 even when it could not save, and xvfb-run has codes of its own.
   xvfb-run -a "$stage/bin/meshlabserver" \
-    -i "$mesh" -s "$script" -o "$made" -m vq vc 2>/dev/null || true
+    -i "$mesh" -s "$script" -o "$made" -m vq vc 2> "$work/messages" || true
   test -s "$made" || {
+    cat "$work/messages" >&2
     echo "meshlabserver wrote no mesh. See its messages above." >&2
     exit 1
   }
