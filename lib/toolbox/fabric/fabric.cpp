@@ -60,6 +60,7 @@ struct PointPlane {
   Vector3 mean = Vector3::Zero();       ///< from the pair's origin
   Vector3 normal = Vector3::Zero();     ///< zero: no plane fits
   Vector3 variances = Vector3::Zero();  ///< ascending
+  double unseen = 0.0;                  ///< variance within a voxel along the normal
 };
 
 /// `across`: how many of the points are middles of faces or gaps across each axis.
@@ -85,7 +86,9 @@ PointPlane plane_of(const PointSums& sums, const Vector3& across, const Lattice&
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance - steps);
   const Vector3 least = solver.eigenvectors().col(0);
   plane.variances = solver.eigenvalues().cwiseMax(0.0);
-  plane.variances[0] = least.dot(covariance * least);
+  // Lines in step meet a wall at the same place, and tell nothing of how far it is within a voxel.
+  plane.unseen = (lattice.axes.transpose() * least).cwiseAbs2().maxCoeff() / 12.0;
+  plane.variances[0] = std::max(least.dot(covariance * least), plane.unseen);
   // Points on a line, or in a heap, have no plane.
   constexpr std::int64_t fewest = 6;
   constexpr double flat = 4.0;
@@ -96,9 +99,12 @@ PointPlane plane_of(const PointSums& sums, const Vector3& across, const Lattice&
 }
 
 /// Standard uncertainty of the normal of a plane through points, if every `together` of them are
-/// shifted by one error.
+/// shifted by one error. Of a wall that is bent, or of several walls, the middles are farther from
+/// the plane than voxels tell: a tenth of that is an error of all points.
 double plane_uncertainty(const PointPlane& plane, double together) {
-  const double between = plane.variances[0] * together / plane.count;
+  constexpr double in_common = 0.1;
+  const double between =
+      plane.variances[0] * together / plane.count + in_common * (plane.variances[0] - plane.unseen);
   return std::sqrt(between / plane.variances[1] + between / plane.variances[2]) / degree;
 }
 
@@ -179,16 +185,22 @@ class PairMeasure {
       sums += pair_.beside;
     }
     const PointPlane plane = plane_of(sums, blur_ ? across(1, widest_gap) : across(0, 1), lattice_);
-    if (plane.normal.isZero()) {
+    const auto faces = static_cast<double>(contact.faces);
+    // One face may be off by a step of a voxel over its width, and so may the rim, which is beside
+    // the gaps of a voxel.
+    const double of_area = contact.raw_area > 0.0
+                               ? std::min(45.0, portable::hypot(30.0 / std::sqrt(faces),
+                                                                20.0 * pair_.beside.count / faces))
+                               : 90.0;
+    const double of_plane = plane_uncertainty(plane, blur_ ? 9.0 : 1.0);
+    if (plane.normal.isZero() || of_area < of_plane) {
       contact.normal = area;
-      // One face may be off by a step of a voxel over its width.
-      contact.normal_uncertainty =
-          std::min(45.0, 30.0 / std::sqrt(static_cast<double>(contact.faces)));
+      contact.normal_uncertainty = of_area;
       return;
     }
     const Vector3 normal = plane.normal.dot(area) < 0.0 ? Vector3(-plane.normal) : plane.normal;
     contact.normal = blur_ ? Vector3((normal + area).normalized()) : normal;
-    contact.normal_uncertainty = plane_uncertainty(plane, blur_ ? 9.0 : 1.0);
+    contact.normal_uncertainty = of_plane;
   }
 
   /// Whether the wall closes on itself: its faces' area vectors nearly cancel each other, and few
