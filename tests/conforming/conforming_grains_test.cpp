@@ -264,6 +264,22 @@ TEST(ConformingGrains, NoTrianglesIntersectInThinGaps) {
   }
 }
 
+// Rough walls, through which single voxels of others touch: a body all around such a contact must
+// not close over it.
+TEST(ConformingGrains, ContactsThatAreAllWithinAnotherGrainPinchNothing) {
+  for (unsigned seed = 11; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::uniform_int_distribution<int> any(0, 99);
+    GrainVoxels voxels = random_cells(seed, 28, 5, false);
+    for (std::int32_t& grain : voxels.grain) {
+      if (grain >= 0 && any(random) < 4) grain = any(random) % 5;
+    }
+    const ConformingGrains result = conformed(std::move(voxels), 5, 3.0 + seed % 3);
+    for (const IndexedMesh& mesh : body_meshes(result, 5)) expect_closed_manifold(mesh);
+  }
+}
+
 // Two pyramids whose tips of one voxel touch.
 GrainVoxels two_pyramids() {
   return voxels_of(33, [](const Vector3& p) {

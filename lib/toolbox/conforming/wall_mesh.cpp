@@ -248,6 +248,17 @@ bool WallMesh::keeps_lines(std::int32_t gone, std::int32_t kept,
     const EdgeTriangles across = triangles_at(end, kept);
     if (across.empty() || !is_line(across)) continue;
     if (!drops_walls || places[end] != WallPlace::Point) return false;
+    // A body all around that wall would touch itself in the line that is left.
+    WallVertices sides;
+    for (const EdgeTriangles& edge : {triangles_at(end, gone), across}) {
+      for (const std::size_t t : edge) {
+        if (std::find(at_edge.begin(), at_edge.end(), t) != at_edge.end()) continue;
+        for (const std::int32_t body : {triangles[t].inner, triangles[t].outer}) {
+          if (body >= 0 && std::count(sides.begin(), sides.end(), body) == 2) return false;
+          sides.push_back(body);
+        }
+      }
+    }
   }
   return true;
 }
