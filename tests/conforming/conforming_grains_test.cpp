@@ -412,6 +412,29 @@ TEST(ConformingGrains, PiecesAreLeftOutAndPoresFilled) {
   EXPECT_GT(result.grains[0].pore_voxels, 80);  // a ball of radius 3 has 113
 }
 
+// A grain between others that is a voxel thick in its middle, which goes to these.
+TEST(ConformingGrains, TellsWhatFallsOffAGrain) {
+  const GrainVoxels voxels = voxels_of(30, [](const Vector3& p) {
+    const Vector3 q = p - Vector3::Constant(15.5);
+    if (q.cwiseAbs().maxCoeff() > 11.0) return -1;
+    return q.x() < -3.0 || q.x() > 4.0 || std::abs(q.y()) < 0.6 ? 0 : q.y() < 0.0 ? 1 : 2;
+  });
+  const auto all = std::count(voxels.grain.begin(), voxels.grain.end(), 0);
+  const ConformingGrains result = conformed(voxels, 3);
+  expect_conforming(result);
+  const ConformingGrain& grain = result.grains[0];
+  EXPECT_EQ(grain.pieces, 1U);
+  EXPECT_GT(grain.fallen_off, 3000);
+  EXPECT_EQ(grain.left_out, grain.fallen_off);
+  EXPECT_EQ(grain.voxels, all - grain.left_out + grain.gained);
+  EXPECT_LT(grain.gained, -100) << "the thin part only";
+  EXPECT_GT(result.grains[1].gained + result.grains[2].gained, 100);
+  EXPECT_NEAR(left_out(result), static_cast<double>(grain.left_out) / (23.0 * 23.0 * 23.0), 1e-12);
+  const std::vector<Sentence> warnings = conforming_warnings(result, {4, 5, 6});
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(holds(warnings[0].text(), "More than 5 % fell off the grains 4: "));
+}
+
 TEST(ConformingGrains, StandInTheLatticeAlsoIfItIsLeftHandedAndItsVoxelsAreLong) {
   VolumeGeometry geometry;
   geometry.axes = test::random_rotation(6) * Vector3(-0.5, 0.8, 0.6).asDiagonal();

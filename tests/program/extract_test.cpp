@@ -282,7 +282,25 @@ TEST_F(Extract, NamesALabelThatIsTooSmallForWalls) {
   EXPECT_TRUE(holds(run("extract sample.nrrd out --edge-length 0 --smallest 1").errors,
                     "Label 7 has only 1 voxel in its largest piece. "))
       << content("stderr.txt");
+  EXPECT_TRUE(holds(content("stderr.txt"), "--smallest 64."));
   EXPECT_EQ(run("extract sample.nrrd out --edge-length 0 --smallest 64").exit_code, 0);
+}
+
+TEST_F(Extract, SaysWhichSmallestLeavesOutWhatHasNoWall) {
+  // A plate between two grains, a voxel thick, and a label in crumbs.
+  test::MadeVolume made({40, 40, 40});
+  made.fill_box(1, {5, 5, 5}, {35, 35, 20});
+  made.fill_box(2, {5, 5, 21}, {35, 35, 35});
+  made.fill_box(3, {5, 5, 20}, {35, 35, 21});
+  for (double x = 5.0; x < 35.0; x += 5.0) made.fill_box(4, {x, 1, 1}, {x + 3.0, 4, 4});
+  test::write_bytes(folder_ / "thin.nrrd", test::nrrd(made, ""));
+  const Outcome refused = run("extract thin.nrrd out --edge-length 3");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_TRUE(holds(refused.errors, "in its largest piece, and 1 other has as few. "))
+      << refused.errors;
+  const std::string advice = "Leave out the small labels by --smallest 901.";
+  EXPECT_TRUE(holds(refused.errors, advice)) << refused.errors;
+  EXPECT_EQ(run("extract thin.nrrd out --edge-length 3 --smallest 901").exit_code, 0);
 }
 
 TEST_F(Extract, CountsLabelsInEachCommand) {

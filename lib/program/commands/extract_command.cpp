@@ -103,7 +103,7 @@ int run_conforming(const ExtractArguments& arguments, LabelGrains& grains) {
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
   work.print(conforming_warnings(result, labels), std::move(lines), arguments.folder);
-  return is_much_left_out(grains.left_out()) ? SomeFailed : Done;
+  return is_much_left_out(left_out(result)) ? SomeFailed : Done;
 }
 
 /// Returns the bodies of a mesh, with a progress line on a terminal unless quiet.

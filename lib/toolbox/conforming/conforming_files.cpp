@@ -165,13 +165,15 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
 
 namespace {
 
-/// Returns the bodies that have intersecting triangles, by their names.
-std::string intersecting(const ConformingGrains& grains, const std::vector<std::string>& names) {
+/// Returns the names of the bodies that `is_meant` holds.
+template <class IsMeant>
+std::string names_of(const ConformingGrains& grains, const std::vector<std::string>& names,
+                     const IsMeant& is_meant) {
   constexpr std::size_t most_named = 10;
   std::string list;
   std::size_t count = 0;
   for (std::size_t g = 0; g < names.size(); ++g) {
-    if (!grains.grains[g].intersects || ++count > most_named) continue;
+    if (!is_meant(grains.grains[g]) || ++count > most_named) continue;
     list += (list.empty() ? "" : ", ") + names[g];
   }
   return count > most_named ? list + " and " + std::to_string(count - most_named) + " more" : list;
@@ -183,6 +185,17 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
   constexpr double least_angle = 5.0;   // degrees
   constexpr double most_error = 0.001;  // of a volume
   std::vector<Sentence> warnings;
+  const std::string fallen = names_of(grains, names, [](const ConformingGrain& grain) {
+    constexpr std::int64_t part = 20;
+    return grain.fallen_off * part > grain.voxels + grain.fallen_off;
+  });
+  if (!fallen.empty()) {
+    warnings.push_back(
+        "More than 5 % fell off the " + kind + "s " + fallen +
+        ": they hang together by parts a voxel thick, which went to the grains "
+        "about these. The largest piece was used. Extracted without common walls, they stay "
+        "whole.");
+  }
   if (grains.volume_error > most_error) {
     warnings.push_back("The volumes of the " + kind + "s err by up to " +
                        format_percent(grains.volume_error) +
@@ -191,10 +204,11 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
                        mention(edge_length_option) + remedy);
   }
   if (grains.intersections > 0) {
-    warnings.push_back(std::to_string(grains.intersections) +
-                       " pairs of triangles intersect, in thin parts of the " + kind + "s " +
-                       intersecting(grains, names) + ". Give a smaller " +
-                       mention(edge_length_option) + remedy);
+    warnings.push_back(
+        std::to_string(grains.intersections) +
+        " pairs of triangles intersect, in thin parts of the " + kind + "s " +
+        names_of(grains, names, [](const ConformingGrain& grain) { return grain.intersects; }) +
+        ". Give a smaller " + mention(edge_length_option) + remedy);
   }
   if (grains.flattest >= 0 && grains.smallest_angle < least_angle) {
     warnings.push_back("The smallest angle of a triangle is " +
@@ -208,6 +222,16 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
 }
 
 }  // namespace
+
+double left_out(const ConformingGrains& grains) {
+  std::int64_t left_out = 0;
+  std::int64_t all = 0;
+  for (const ConformingGrain& grain : grains.grains) {
+    left_out += grain.left_out;
+    all += grain.left_out + grain.voxels - grain.gained - grain.pore_voxels;
+  }
+  return static_cast<double>(left_out) / static_cast<double>(all);
+}
 
 std::vector<Sentence> conforming_warnings(const ConformingGrains& grains,
                                           const std::vector<Label>& labels) {

@@ -35,15 +35,18 @@ std::string walls_csv(const ConformingGrains& grains, const std::vector<Label>& 
 
 /// Returns CSV, a row per grain: grain (its label), nodes, triangles, voxels, gained (of them, from
 /// thin gaps and thin parts of others, less its own), voxel_volume, volume, contacts, pieces,
-/// left_out (voxels of smaller pieces), file.
+/// left_out (voxels of smaller pieces, and those that fell off), file.
 std::string conforming_csv(const ConformingGrains& grains, const std::vector<Label>& labels,
                            const std::vector<std::string>& files);
 
 /// Returns lines for a log, of grains of voxels or of fragments.
 std::vector<std::string> conforming_lines(const ConformingGrains& grains);
 
+/// Returns the fraction of the voxels of all labels that is in no mesh.
+double left_out(const ConformingGrains& grains);
+
 /// Returns sentences for the user about triangles that intersect, with the grains that have them,
-/// and about slivers.
+/// about slivers, and about grains of which more than a twentieth fell off.
 std::vector<Sentence> conforming_warnings(const ConformingGrains& grains,
                                           const std::vector<Label>& labels);
 

@@ -121,15 +121,42 @@ TouchingGrains touching_grains(const GrainVoxels& voxels) {
 }
 
 /// Makes all grains well-composed and of one piece: none touches itself in an edge or corner.
-void compose(GrainVoxels& voxels, std::size_t grains) {
+/// Returns the voxels of each that fell off.
+std::vector<std::int64_t> compose(GrainVoxels& voxels, std::size_t grains) {
   constexpr int most_rounds = 10;
+  std::vector<std::int64_t> fallen(grains, 0);
   for (int round = 0; round < most_rounds; ++round) {
-    if (make_well_composed(voxels) == 0) return;
-    keep_largest_pieces(voxels, grains);
+    if (make_well_composed(voxels) == 0) return fallen;
+    const std::vector<GrainPieces> pieces = keep_largest_pieces(voxels, grains);
+    for (std::size_t g = 0; g < grains; ++g) fallen[g] += pieces[g].left_out;
   }
   throw Error(ErrorCode::NumericalFailure,
               "The grains fall into pieces again and again when they are made well-composed. "
               "Segment the volume with less noise.");
+}
+
+/// Throws Error for grains that are too small. `own`: voxels of each label.
+void require_voxels(const std::vector<ConformingGrain>& grains,
+                    const std::vector<std::int64_t>& own, const std::vector<Label>& labels) {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::int64_t most = fewest_voxels - 1;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    if (grains[g].voxels >= fewest_voxels) continue;
+    if (count++ == 0) first = g;
+    most = std::max(most, own[g]);
+  }
+  if (count == 0) return;
+  const std::string name =
+      labels.empty() ? "Grain " + std::to_string(first) : "Label " + std::to_string(labels[first]);
+  if (own[first] == 0) refuse(name + " has no voxel.");
+  const std::string others =
+      count == 1 ? "" : ", and " + format_count(count - 1, "other has", "others have") + " as few";
+  refuse(name + " has only " + format_count(grains[first].voxels, "voxel") +
+         " in its largest piece" + others + ". Less than " + std::to_string(fewest_voxels) +
+         " have no smooth wall, and parts a voxel thick between grains count as theirs. Leave out "
+         "the small labels by " +
+         mention(smallest_option, most + 1) + ".");
 }
 
 /// Remeshes dense walls. `edges`: wanted of each grain; `least`: see WallRemesher; `dense_edge`:
@@ -205,29 +232,25 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   const TouchingGrains touching = touching_grains(voxels);
   remove_thin_parts(voxels);
   const std::vector<GrainPieces> cleaned = keep_largest_pieces(voxels, grains);
+  const std::vector<std::int64_t> composed = compose(voxels, grains);
   ConformingGrains result;
   result.grains.resize(grains);
   std::vector<double> volumes(grains);
+  std::vector<std::int64_t> own(grains);
   for (std::size_t g = 0; g < grains; ++g) {
-    const std::string name =
-        labels.empty() ? "Grain " + std::to_string(g) : "Label " + std::to_string(labels.at(g));
-    if (pieces[g].voxels == 0) refuse(name + " has no voxel.");
     ConformingGrain& grain = result.grains[g];
-    grain.voxels = cleaned[g].voxels;
-    if (grain.voxels < fewest_voxels) {
-      refuse(name + " has only " + format_count(grain.voxels, "voxel") +
-             " in its largest piece. Its wall cannot be smoothed. Leave out grains of less than " +
-             std::to_string(fewest_voxels) + " voxels by " + mention(smallest_option) + ".");
-    }
-    grain.gained = cleaned[g].voxels - pieces[g].voxels;
+    own[g] = pieces[g].voxels - pieces[g].pore_voxels + pieces[g].left_out;
+    grain.voxels = cleaned[g].voxels - composed[g];
+    grain.fallen_off = cleaned[g].left_out + composed[g];
+    grain.gained = grain.voxels + grain.fallen_off - pieces[g].voxels;
     grain.pieces = pieces[g].pieces;
-    grain.left_out = pieces[g].left_out;
+    grain.left_out = pieces[g].left_out + grain.fallen_off;
     grain.pore_voxels = pieces[g].pore_voxels;
     volumes[g] = static_cast<double>(grain.voxels) * geometry.voxel_volume();
     grain.voxel_volume = volumes[g];
     result.gained_voxels += grain.gained;
   }
-  compose(voxels, grains);
+  require_voxels(result.grains, own, labels);
   execution.report(0.1, "Finding the walls");
   VoxelWalls walls = voxel_walls(voxels);
   voxels = GrainVoxels({0, 0, 0});

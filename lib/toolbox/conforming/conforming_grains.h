@@ -36,7 +36,8 @@ struct ConformingGrain {
   std::int64_t voxels = 0;       ///< of its largest piece, pores filled, thin parts removed
   std::int64_t gained = 0;       ///< of them from thin gaps and thin parts of others, less its own
   std::size_t pieces = 0;        ///< of the label
-  std::int64_t left_out = 0;     ///< voxels of the other pieces
+  std::int64_t left_out = 0;     ///< voxels of the other pieces, and those that fell off
+  std::int64_t fallen_off = 0;   ///< behind parts a voxel thick, which went to other grains
   std::int64_t pore_voxels = 0;  ///< that were filled
   double voxel_volume = 0.0;     ///< of `voxels`; length^3
   double volume = 0.0;           ///< of the mesh
