@@ -193,7 +193,7 @@ class PairMeasure {
                                                                 20.0 * pair_.beside.count / faces))
                                : 90.0;
     const double of_plane = plane_uncertainty(plane, blur_ ? 9.0 : 1.0);
-    if (plane.normal.isZero() || of_area < of_plane) {
+    if (plane.normal.isZero() || (!blur_ && of_area < of_plane)) {
       contact.normal = area;
       contact.normal_uncertainty = of_area;
       return;
