@@ -47,6 +47,7 @@ Extracted grains_of(const VolumeOfArray& array, const VolumeOptions& options, in
   run.work = [&](std::size_t k, const Execution& one) -> GrainRow {
     try {
       made[k].grain = labels.read(k, one);
+      made[k].failure = refusal_of(made[k].grain);
     } catch (const Error& error) {
       if (error.code() == ErrorCode::Cancelled) throw;
       made[k].failure = error.sentence();

@@ -2,10 +2,12 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bindings.h"
 #include "conversion.h"
@@ -19,19 +21,27 @@ namespace py = pybind11;
 
 namespace {
 
-/// Returns the array's number of a label.
-std::int64_t number_of(const Fabric& fabric, Label label) {
-  const auto name = fabric.names.find(label);
-  if (name == fabric.names.end()) return std::int64_t{label};
-  return static_cast<std::int64_t>(std::stoull(name->second));
+/// Returns the array's numbers of the items' labels: of 64 bits, without sign only if needed.
+template <class Item, class Get>
+py::object numbers_of(const Fabric& fabric, const std::vector<Item>& items, const Get& label_of) {
+  const auto number = [&](const Item& item) -> std::uint64_t {
+    const Label label = label_of(item);
+    const auto name = fabric.names.find(label);
+    return name == fabric.names.end() ? label : std::stoull(name->second);
+  };
+  const auto is_large = [&](const Item& item) { return number(item) > INT64_MAX; };
+  if (std::any_of(items.begin(), items.end(), is_large)) return column(items, number);
+  return column(items, [&](const Item& item) { return static_cast<std::int64_t>(number(item)); });
 }
 
 py::dict contacts_of(const Fabric& fabric) {
   const auto& all = fabric.contacts;
-  const auto label = [&](std::size_t k) { return number_of(fabric, fabric.grains[k].label); };
+  const auto& grains = fabric.grains;
   py::dict dict;
-  dict["first"] = column(all, [&](const FabricContact& c) { return label(c.first); });
-  dict["second"] = column(all, [&](const FabricContact& c) { return label(c.second); });
+  dict["first"] =
+      numbers_of(fabric, all, [&](const FabricContact& c) { return grains[c.first].label; });
+  dict["second"] =
+      numbers_of(fabric, all, [&](const FabricContact& c) { return grains[c.second].label; });
   dict["contact"] = column(all, &FabricContact::is_contact);
   dict["faces"] =
       column(all, [](const FabricContact& c) { return static_cast<std::int64_t>(c.faces); });
@@ -51,7 +61,7 @@ py::dict grains_of(const Fabric& fabric) {
   const auto& all = fabric.grains;
   const auto whole = [](std::uint64_t number) { return static_cast<std::int64_t>(number); };
   py::dict dict;
-  dict["label"] = column(all, [&](const FabricGrain& g) { return number_of(fabric, g.label); });
+  dict["label"] = numbers_of(fabric, all, [](const FabricGrain& g) { return g.label; });
   dict["voxels"] = column(all, [&](const FabricGrain& g) { return whole(g.voxels); });
   dict["volume"] = column(all, &FabricGrain::volume);
   dict["centre"] = column(all, &FabricGrain::centre);

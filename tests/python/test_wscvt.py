@@ -751,6 +751,20 @@ def test_extract_of_an_array_takes_and_refuses_what_the_program_does(case, tmp_p
             assert text in str(error.value)
 
 
+def test_labels_of_all_64_bits_and_labels_in_crumbs():
+    labels = np.zeros((20, 20, 20), np.uint64)
+    labels[3:9, 3:9, 3:9] = 2 ** 64 - 1
+    labels[3:9, 3:9, 9:15] = 2 ** 63 + 5
+    labels[3:9, 9:15, 3:9] = 7
+    contacts = wscvt.fabric(labels)["contacts"]
+    assert list(contacts["first"]) == [7, 2 ** 63 + 5] and list(contacts["second"]) == [2 ** 64 - 1] * 2
+    crumbs = np.zeros((20, 20, 20), np.uint16)
+    crumbs[3:7, 3:7, 3:7] = crumbs[10:14, 10:14, 10:14] = 1
+    crumbs[3:9, 12:18, 3:9] = 2
+    with pytest.warns(UserWarning, match="The label 1: The label is in 2 pieces, and the largest has too few"):
+        assert list(wscvt.extract(crumbs)) == [2]
+
+
 def test_a_point_that_is_not_finite_has_no_distance(scan):
     with pytest.raises(wscvt.Error, match="Point 1 is not finite"):
         wscvt.signed_distances([[0, 0, 0], [np.nan, 0, 0]], *scan)

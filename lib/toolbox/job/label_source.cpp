@@ -31,10 +31,7 @@ GrainScan LabelSource::read(std::size_t grain, bool /*with_pictures*/, const Exe
       [row = label_row(path_, *grains_, extent, {&label, "", ""})](const std::string& file) {
         return row.substr(0, row.size() - 2) + csv_record({file});  // the last column
       };
-  if (label.mesh.points.empty()) {
-    scan.refused = "The label is in " + std::to_string(label.pieces) +
-                   " pieces, and the largest has too few voxels for a grain. Segment it again.";
-  }
+  scan.refused = refusal_of(label);
   scan.warnings = warnings_of(label);
   scan.mesh = std::move(label.mesh);
   scan.voxel_size = edge_of_cubes(grains_->geometry());

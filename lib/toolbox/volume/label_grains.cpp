@@ -184,6 +184,12 @@ LabelGrain LabelGrains::read(std::size_t grain, const Execution& execution) {
   return result;
 }
 
+std::string refusal_of(const LabelGrain& grain) {
+  if (!grain.mesh.points.empty()) return "";
+  return "The label is in " + std::to_string(grain.pieces) +
+         " pieces, and the largest has too few voxels for a grain. Segment it again.";
+}
+
 std::vector<std::string> warnings_of(const LabelGrain& grain) {
   std::vector<std::string> warnings;
   if (grain.pieces > 1) {

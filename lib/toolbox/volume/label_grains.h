@@ -136,6 +136,9 @@ class LabelGrains {
   std::unordered_map<Label, std::vector<VoxelStretch>> at_work_;
 };
 
+/// Returns why a label has no mesh; empty if it has one.
+std::string refusal_of(const LabelGrain& grain);
+
 /// Returns sentences for the user about a label with several pieces or with pores.
 std::vector<std::string> warnings_of(const LabelGrain& grain);
 
