@@ -20,8 +20,10 @@
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
 
 namespace wscvt {
 namespace {
@@ -698,6 +700,28 @@ TEST(ConformingGrains, FragmentsAreRemeshedWithCommonWalls) {
       const double size = std::sqrt(cut[k].area);
       EXPECT_LT((fragments.contacts[k].centre - cut[k].centre).norm(), 0.1 * size + 0.02);
     }
+  }
+}
+
+TEST(ConformingGrains, FragmentsThatLeaveTheGrainsSurfaceAreTold) {
+  const IndexedMesh grain = test::moved(test::lumpy(3), 1e-3, Vector3(0.4, -0.7, 0.3));
+  const double radius = equivalent_radius(volume_of(grain, Execution(1)));
+  for (const int nodes : {12, 1000}) {
+    SCOPED_TRACE(nodes);
+    Fragments fragments = fragments_of(grain, 1);
+    ConformingOptions options;
+    options.nodes = nodes;
+    const ConformingGrains result = remesh_fragments(fragments, options, Execution(1));
+    const MeshDistances distances =
+        measure_distances(fragments.list.front().mesh, grain, usual_distance_samples, Execution(1));
+    EXPECT_NEAR(result.rms_distance * radius / distances.root_mean_square, 1.0, 0.03);
+    EXPECT_NEAR(result.largest_distance * radius / distances.largest, 1.0, 0.05);
+    const std::vector<Sentence> warnings = conforming_warnings(result);
+    const bool is_told = std::any_of(warnings.begin(), warnings.end(), [](const Sentence& warning) {
+      return test::holds(warning.text(), "do not follow the grain's surface");
+    });
+    EXPECT_EQ(is_told, nodes == 12);
+    EXPECT_TRUE(holds(conforming_lines(result).back(), format_percent(result.rms_distance)));
   }
 }
 

@@ -130,6 +130,15 @@ std::string conforming_csv(const ConformingGrains& grains, const std::vector<Lab
   return text;
 }
 
+namespace {
+
+std::string distance_text(const ConformingGrains& grains) {
+  return "rms " + format_percent(grains.rms_distance) + " of the equivalent radius, largest " +
+         format_percent(grains.largest_distance);
+}
+
+}  // namespace
+
 std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
   std::int64_t voxels = 0;
   for (const ConformingGrain& grain : grains.grains) voxels += grain.voxels;
@@ -160,6 +169,9 @@ std::vector<std::string> conforming_lines(const ConformingGrains& grains) {
   lines.push_back("Volumes: " +
                   (error == "exact" ? error : "exact within " + error.substr(1) + " %"));
   lines.push_back("Intersecting pairs of triangles: " + std::to_string(grains.intersections));
+  if (grains.largest_distance > 0.0) {
+    lines.push_back("Distance to the grain's surface: " + distance_text(grains));
+  }
   return lines;
 }
 
@@ -202,6 +214,11 @@ std::vector<Sentence> warnings_of(const ConformingGrains& grains, const std::str
                        ", because their triangles are too large to be parted otherwise. Give a "
                        "smaller " +
                        mention(edge_length_option) + remedy);
+  }
+  if (grains.is_inaccurate) {
+    warnings.push_back("The fragments do not follow the grain's surface: they are off by " +
+                       distance_text(grains) + ". Give a smaller " + mention(edge_length_option) +
+                       remedy);
   }
   if (grains.intersections > 0) {
     warnings.push_back(

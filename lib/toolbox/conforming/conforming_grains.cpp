@@ -14,9 +14,13 @@
 #include "wscvt/base/counting_sort.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/half_edges.h"
+#include "wscvt/base/numbers.h"
 #include "wscvt/base/portable_math.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/distances.h"
+#include "wscvt/remesh/remesh_warnings.h"
+#include "wscvt/repair/scan_advice.h"
 
 namespace wscvt {
 
@@ -266,6 +270,32 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
   return result;
 }
 
+namespace {
+
+IndexedMesh outer_surface(const WallComplex& complex) {
+  IndexedMesh surface;
+  surface.points = complex.points;
+  for (const WallTriangle& t : complex.triangles) {
+    if (t.outer < 0) surface.triangles.push_back(t.corners);
+  }
+  drop_unused_points(surface);
+  return surface;
+}
+
+void measure_surface(const IndexedMesh& grain, double radius, ConformingGrains& remeshed,
+                     const Execution& execution) {
+  constexpr std::size_t samples = 5000;  // as in remesh()
+  const MeshDistances distances =
+      sampled_distances(outer_surface(remeshed), grain, samples, execution);
+  remeshed.rms_distance = distances.root_mean_square / radius;
+  remeshed.largest_distance = distances.largest / radius;
+  remeshed.is_inaccurate = (remeshed.rms_distance > distance_warning_limit ||
+                            remeshed.largest_distance > largest_warning_limit) &&
+                           !has_voxel_steps(grain);
+}
+
+}  // namespace
+
 ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions& options,
                                   const Execution& execution) {
   check_conforming_options(options);
@@ -284,7 +314,9 @@ ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions&
   WallRemesher dense(cut, least);
   dense.refine(execution.part(0.0, 0.1));
   remesh_walls(DenseWalls(std::move(dense.mesh())), volumes, std::move(edges), least, options.nodes,
-               true, result, execution.part(0.1, 0.95));
+               true, result, execution.part(0.1, 0.9));
+  measure_surface(outer_surface(fragments.walls), equivalent_radius(fragments.grain.volume), result,
+                  execution.part(0.9, 0.95));
   fragments.walls = static_cast<const WallComplex&>(result);
   measure_fragments(fragments, execution.part(0.95, 1.0));
   return result;

@@ -61,6 +61,10 @@ struct ConformingGrains : WallComplex {
   std::size_t walls_across = 0;    ///< between labels that do not touch
   std::size_t lost_walls = 0;      ///< between labels that touch: narrow ones vanished
   double volume_error = 0.0;       ///< largest, relative
+  // Of fragments, from their remesh to the grain's surface and back, over the equivalent radius.
+  double rms_distance = 0.0;
+  double largest_distance = 0.0;
+  bool is_inaccurate = false;  ///< these exceed the limits of a remesh; never of voxel steps
 };
 
 /// Remeshes all grains of a volume at once. `voxels`: grains are numbered from 0; the outermost
@@ -89,8 +93,8 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
 /// Replaces the meshes of fragments by remeshes, in the same way: two that touch have the nodes and
 /// triangles of their wall in common, walls stay where the cells met, and each fragment keeps its
 /// volume. Without an edge length or nodes the edges are as long as the grain's. Measures the
-/// fragments anew. Returns the complex of `fragments.walls`, with 0 for what is of voxels. Throws
-/// Error: InvalidInput as check_conforming_options; Cancelled.
+/// fragments anew, and how far the grain's surface went. Returns the complex of `fragments.walls`,
+/// with 0 for what is of voxels. Throws Error: InvalidInput as check_conforming_options; Cancelled.
 ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions& options,
                                   const Execution& execution);
 
