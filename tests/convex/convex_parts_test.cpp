@@ -301,6 +301,11 @@ TEST(ConvexParts, ThatFillAHollowAreToldAndSlitsAreNot) {
       make_parts(test::scan_of(cup, 1.2, 0.1), options, at_most(1, 60), Execution(1));
   ASSERT_FALSE(hull.warnings.empty());
   EXPECT_TRUE(test::holds(hull.warnings.back().text(), "fill a hollow"));
+  // A box has no hollow; six points of its eight are too few.
+  const PartsResult box =
+      make_parts(test::box(1.0, 0.8, 0.6), options, at_most(1, 8), Execution(1));
+  ASSERT_FALSE(box.warnings.empty());
+  EXPECT_TRUE(test::holds(box.warnings.back().text(), "too few faces"));
   // Two halves with a slit of 1e-4 between them: no point of the slit is on their surface.
   const double half = 0.5 - 0.5e-4;
   const ConvexParts halves = {

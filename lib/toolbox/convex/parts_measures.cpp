@@ -79,14 +79,15 @@ double union_volume(const Union& parts, double shared) {
 }
 
 /// Scales the parts together about the grain's centroid, so that their union has its volume. Hulls
-/// hold the grain and have more; hulls of few faces have less.
-void keep_volume(ConvexParts& parts, const ShapeDescriptors& grain, const Execution& execution) {
+/// hold the grain and have more; hulls of few faces have less. Returns the factor.
+double keep_volume(ConvexParts& parts, const ShapeDescriptors& grain, const Execution& execution) {
   const Union all(parts);
   const double scale =
       portable::cbrt(grain.volume / union_volume(all, shared_volume(all, execution)));
   for (IndexedMesh& part : parts) {
     for (Vector3& p : part.points) p = grain.centroid + scale * (p - grain.centroid);
   }
+  return scale;
 }
 
 std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
@@ -106,16 +107,18 @@ std::vector<Vector3> outer_points(const ConvexParts& parts, const Union& all) {
   return points;
 }
 
-/// Ordinary grains in four parts are 6 to 8 % off, their hulls 9 to 18 %.
-void warn_of_hollows(PartsResult& result) {
+/// Ordinary grains in four parts are 6 to 8 % off, their hulls 9 to 18 %. `scale`: of keep_volume.
+void warn_of_distance(double scale, PartsResult& result) {
   constexpr double limit = 0.2;
   const double share =
       result.measures.largest_distance / equivalent_radius(result.measures.grain_volume);
   if (share < limit) return;
-  result.warnings.push_back(
-      Sentence("The parts are up to ") + format_percent(share) +
-      " of the equivalent radius from the grain: they fill a hollow of it. Compare with a larger " +
-      mention(convex_parts_option) + ", or use the remesh where hollows matter.");
+  const Sentence why =
+      scale > 1.0 ? "have too few faces. Compare with larger " + mention(convex_faces_option)
+                  : "fill a hollow of it. Compare with a larger " + mention(convex_parts_option);
+  result.warnings.push_back(Sentence("The parts are up to ") + format_percent(share) +
+                            " of the equivalent radius from the grain: they " + why +
+                            ", or use the remesh where the difference matters.");
 }
 
 }  // namespace
@@ -172,9 +175,9 @@ PartsResult make_parts(IndexedMesh scan, RemeshOptions remesh_options, const Con
   result.scan = remeshed.scan;
   result.grain = std::move(remeshed.repaired_scan);
   result.parts = convex_parts(remeshed.mesh, result.grain, options, execution.part(0.3, 0.9));
-  keep_volume(result.parts, result.scan, execution.part(0.9, 0.9));
+  const double scale = keep_volume(result.parts, result.scan, execution.part(0.9, 0.9));
   result.measures = measure_parts(result.parts, result.grain, execution.part(0.9, 1.0));
-  warn_of_hollows(result);
+  warn_of_distance(scale, result);
   return result;
 }
 
