@@ -303,13 +303,16 @@ TEST(Fragments, TellPointsFarAwayAndRepairs) {
   const IndexedMesh grain = test::moved(test::sphere(3), 2.0, Vector3(50.0, 0.0, 0.0));
   FragmentOptions options;
   options.count = 3;
-  options.near = {Vector3(56.0, 0.0, 0.0)};  // 3 radii, and then 5
+  options.near = {Vector3(56.0, 0.0, 0.0)};  // 2 radii from the surface, and then 4
   EXPECT_TRUE(fragment_grain(grain, options).warnings.empty());
   options.near.emplace_back(60.0, 0.0, 0.0);
   const std::vector<Sentence> told = fragment_grain(grain, options).warnings;
   ASSERT_EQ(told.size(), 1U);
   // The ball's volume is a few per cent below that of its sphere.
-  EXPECT_TRUE(test::holds(told[0].text(), " is 5.0"));
+  EXPECT_TRUE(test::holds(told[0].text(), " is 4.0"));
+  const IndexedMesh needle = test::box(1.0, 1.0, 20.0);  // ends 6 radii from the centroid
+  options.near = {needle.points.front()};
+  EXPECT_TRUE(fragment_grain(needle, options).warnings.empty());
   options.near.clear();
   const IndexedMesh two = test::joined(grain, test::sphere(1));
   EXPECT_EQ(fragment_grain(two, options).warnings.size(), 1U) << "the smaller body is left out";

@@ -15,6 +15,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
+#include "wscvt/measures/mesh_distance.h"
 #include "wscvt/remesh/remesh_warnings.h"
 #include "wscvt/repair/mesh_check.h"
 
@@ -152,12 +153,14 @@ Fragments fragment_grain(IndexedMesh scan, const FragmentOptions& options,
   result.moved_percent = 100.0 * moved.volume / shape.volume;
   append_repair_warnings(checked.report, "divided", result.warnings);
   for (const Vector3& point : options.near) {
-    const double away = (point - shape.centroid).norm() / equivalent_radius(shape.volume);
-    constexpr double far = 4.0;
+    const double away =
+        MeshDistance(checked.mesh, execution).signed_distances({point}, execution)[0] /
+        equivalent_radius(shape.volume);
+    constexpr double far = 3.0;
     if (!(away > far)) continue;
     result.warnings.push_back(
         "A point near which fragments should be smaller is " + format_number(away, 3) +
-        " equivalent radii away from the grain's centroid, so it has little effect. Give "
+        " equivalent radii away from the grain, so it has little effect. Give "
         "coordinates of the grain's file.");
   }
   return result;
