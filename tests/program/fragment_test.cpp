@@ -79,6 +79,12 @@ TEST_F(FragmentCommand, LeavesNoFragmentOfAnEarlierCall) {
   EXPECT_FALSE(exists("out/fragment_4.ply"));
   EXPECT_TRUE(exists("out/fragment_3.ply"));
   EXPECT_TRUE(exists("out/fragment_3.off"));
+  ASSERT_EQ(run("fragment grain.ply -k 3 -o out --format urdf").exit_code, 0);
+  EXPECT_TRUE(exists("out/fragment_3.ply")) << "the same in another format";
+  ASSERT_EQ(run("fragment grain.ply -k 3 --seed 2 -o out").exit_code, 0);
+  for (const char* old : {"out/fragment_1.urdf", "out/fragment_1_1.obj", "out/fragment_3_1.obj"}) {
+    EXPECT_FALSE(exists(old)) << old << " is of another division";
+  }
   std::ofstream(path("out/contacts.csv")) << "mine\n";
   EXPECT_TRUE(
       holds(run("fragment grain.ply -k 2 -o out").errors, "a contacts.csv of another command"));

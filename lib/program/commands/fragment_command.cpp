@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -80,11 +82,19 @@ bool is_remeshed(const FragmentArguments& arguments) {
          !arguments.tetrahedra.files.empty();
 }
 
-/// Refuses a folder with the fragments of another grain, told apart by the volume.
-void require_same_grain(const std::string& folder, double volume) {
-  constexpr double rounding = 1e-6;  // of files of single precision
-  const double sum = volume_of_fragments((fs::path(folder) / "fragments.csv").string());
-  if (sum == 0.0 || std::abs(sum - volume) <= rounding * volume) return;
+/// Refuses a folder with the fragments of another grain, told apart by the volume. Returns whether
+/// it has these fragments, maybe in another format.
+bool require_same_grain(const std::string& folder, const Fragments& fragments) {
+  const double volume = fragments.grain.volume;
+  const double allowed = 1e-6 * volume;  // of files of single precision
+  const std::vector<double> volumes =
+      volumes_of_fragments((fs::path(folder) / "fragments.csv").string());
+  const double sum = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  if (sum == 0.0 || std::abs(sum - volume) <= allowed) {
+    return std::equal(
+        volumes.begin(), volumes.end(), fragments.list.begin(), fragments.list.end(),
+        [&](double one, const Fragment& f) { return std::abs(one - f.mass.volume) <= allowed; });
+  }
   refuse(
       "The folder \"" + folder +
       "\" has the fragments of another grain, which would be replaced: their volumes add up to " +
@@ -171,11 +181,11 @@ int run(const FragmentArguments& arguments) {
   }
   const std::vector<std::string> about = fragment_lines(fragments);
   lines.insert(lines.begin(), about.begin(), about.end());
-  checked([&] {
+  const bool are_same = checked([&] {
     require_no_job(arguments.folder);
     require_own_table(arguments.folder, "fragments.csv", fragments_csv(Fragments(), {}));
     require_own_table(arguments.folder, "contacts.csv", fragment_contacts_csv(Fragments()));
-    require_same_grain(arguments.folder, fragments.grain.volume);
+    return require_same_grain(arguments.folder, fragments);
   });
   const OlderFiles older(arguments.folder, {"fragments.csv"});
   const MadeFolder made(arguments.folder);
@@ -202,7 +212,7 @@ int run(const FragmentArguments& arguments) {
     return tetrahedra_in(meshes, "fragment", names, arguments.walls.edge_length, work.execution());
   });
   lines.insert(lines.end(), filled.begin(), filled.end());
-  for (std::string& line : older.remove_but(files, arguments.grain))
+  for (std::string& line : older.remove_but(files, arguments.grain, are_same))
     lines.push_back(std::move(line));
   work.print(warnings, std::move(lines), arguments.folder);
   return Done;

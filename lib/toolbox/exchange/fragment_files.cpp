@@ -75,15 +75,14 @@ std::string fragments_csv(const Fragments& fragments, const std::vector<std::str
   return text;
 }
 
-double volume_of_fragments(const std::string& path) {
+std::vector<double> volumes_of_fragments(const std::string& path) {
   InputFile table(path, MissingFile::IsEmpty);
-  double sum = 0.0;
+  std::vector<double> volumes;
   for (const std::string& field : column_of(table, "volume")) {
-    double volume = 0.0;
+    double& volume = volumes.emplace_back(0.0);
     std::from_chars(field.data(), field.data() + field.size(), volume);
-    sum += volume;
   }
-  return sum;
+  return volumes;
 }
 
 std::string fragment_contacts_csv(const Fragments& fragments) {

@@ -30,9 +30,9 @@ Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
 /// contacts. `files`: the name of each fragment's file. Numbers read back to the same bits.
 std::string fragments_csv(const Fragments& fragments, const std::vector<std::string>& files);
 
-/// Returns the sum of the volumes in such a table; 0 if it cannot be read. Fragments have the
-/// volume of their grain, however many they are, and a remesh keeps it.
-double volume_of_fragments(const std::string& path);
+/// Returns the volumes in such a table; none if it cannot be read. Their sum is the volume of the
+/// grain, however many they are, and a remesh keeps them.
+std::vector<double> volumes_of_fragments(const std::string& path);
 
 /// Returns CSV, a row per contact: first and second (from 1), area, centre (x, y, z), normal
 /// (nx, ny, nz) from first to second. Numbers read back to the same bits.

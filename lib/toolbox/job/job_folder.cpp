@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "toolbox/exchange/part_files.h"
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/input_file.h"
@@ -167,15 +168,22 @@ OlderFiles::OlderFiles(std::string folder, const std::vector<std::string>& table
 }
 
 std::vector<std::string> OlderFiles::remove_but(const std::vector<std::string>& kept,
-                                                const std::string& input) const {
-  std::set<fs::path> stems;
-  for (const std::string& name : kept) stems.insert(fs::path(name).stem());
+                                                const std::string& input, bool formats) const {
+  const auto kept_as = [&](const fs::path& path) {
+    return formats ? path.stem() : path.filename();
+  };
+  std::set<fs::path> names;
+  for (const std::string& name : kept) names.insert(kept_as(name));
   std::size_t removed = 0;
   for (const std::string& name : files_) {
     const fs::path path = folder_ / name;
-    if (stems.count(path.stem()) > 0 || same_file(path.string(), input)) continue;
-    std::error_code ignored;
-    if (fs::remove(path, ignored)) ++removed;
+    if (names.count(kept_as(path)) > 0) continue;
+    std::vector<std::string> old = parts_beside(path.string(), 1);
+    old.push_back(path.string());
+    for (const std::string& file : old) {
+      std::error_code ignored;
+      if (!same_file(file, input) && fs::remove(file, ignored)) ++removed;
+    }
   }
   if (removed == 0) return {};
   return {format_count(removed, "file") + " of the earlier call removed"};

@@ -79,10 +79,11 @@ class OlderFiles {
   /// `tables` in the folder, in whose columns "file" they stand.
   OlderFiles(std::string folder, const std::vector<std::string>& tables);
 
-  /// Removes all but these, but the same in another format, and but the input of the call. Returns
-  /// how many, as a line for a log; nothing if there were none.
+  /// Removes all but these and the input of the call, with the hull beside a .urdf; with `formats`
+  /// also but the same in another format. Returns how many, as a line for a log; nothing if there
+  /// were none.
   std::vector<std::string> remove_but(const std::vector<std::string>& kept,
-                                      const std::string& input) const;
+                                      const std::string& input, bool formats = true) const;
 
  private:
   std::filesystem::path folder_;
