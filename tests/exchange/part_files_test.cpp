@@ -113,11 +113,11 @@ TEST_F(PartFiles, KeepSignsOfMarkupInNamesOutOfTheMarkup) {
 // falls with its cube.
 TEST_F(PartFiles, OfASmallGrainWarnOfMujocosLimit) {
   mass.principal_moments = Vector3(1e-18, 2e-18, 3e-18);
-  EXPECT_TRUE(inertia_warning("grain.xml", mass, 1.1e4).empty());
-  EXPECT_TRUE(inertia_warning("grain.urdf", mass, 2000.0).empty());
-  const std::string told = inertia_warning("grain.xml", mass, 2000.0).text();
+  EXPECT_TRUE(inertia_warning("grain.xml", mass, 1.1e4, "the unit").empty());
+  EXPECT_TRUE(inertia_warning("grain.urdf", mass, 2000.0, "the unit").empty());
+  const std::string told = inertia_warning("grain.xml", mass, 2000.0, "the unit").text();
   EXPECT_TRUE(holds(told, "moment of inertia is 2e-15"));
-  EXPECT_TRUE(holds(told, " by 1000, "));
+  EXPECT_TRUE(holds(told, "multiply the unit by 1000, "));
   EXPECT_TRUE(holds(told, "2e-06"));
 }
 

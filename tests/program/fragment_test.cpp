@@ -62,6 +62,9 @@ TEST_F(FragmentCommand, WritesTheFormatsOfEngines) {
   EXPECT_TRUE(exists("out/fragment_3_1.obj"));
   EXPECT_EQ(run("fragment grain.ply -k 3 -o out --format xml").exit_code, 0);
   EXPECT_TRUE(holds(content("out/fragment_2.xml"), "freejoint"));
+  write_mesh(test::moved(grain, 1e-3, Vector3::Zero()), path("metres.ply"));
+  EXPECT_TRUE(holds(run("fragment metres.ply -k 3 -o metres --format xml").errors,
+                    "multiply the grain's coordinates by 1000, set --density 1e-09"));
   const Outcome rounded = run("fragment grain.ply -k 3 -o out --format shp -n 80");
   EXPECT_EQ(rounded.exit_code, 0);
   EXPECT_TRUE(holds(rounded.output, "Rounded for Rockable by "));

@@ -102,6 +102,18 @@ bool require_same_grain(const std::string& folder, const Fragments& fragments) {
       ". Give another folder with " + mention("output") + ".");
 }
 
+/// Returns a warning for the fragment with the least moment of inertia, see inertia_warning.
+Sentence inertia_warning_of(const Fragments& fragments, const fs::path& folder,
+                            const std::vector<std::string>& files, double density) {
+  const auto least = [](const Fragment& one) { return one.mass.principal_moments.minCoeff(); };
+  const auto smallest =
+      std::min_element(fragments.list.begin(), fragments.list.end(),
+                       [&](const Fragment& a, const Fragment& b) { return least(a) < least(b); });
+  const std::string& file = files[smallest - fragments.list.begin()];
+  return inertia_warning((folder / file).string(), smallest->mass, density,
+                         "the grain's coordinates");
+}
+
 CLI::App& add_arguments(CLI::App& program, FragmentArguments& arguments) {
   CLI::App& app = add_command(
       program,
@@ -196,6 +208,8 @@ int run(const FragmentArguments& arguments) {
     work.write(path,
                [&] { roundings[k] = write_fragment(path, one.mesh, one.mass, arguments.density); });
   }
+  const Sentence refused = inertia_warning_of(fragments, folder, files, arguments.density);
+  if (!refused.empty()) warnings.push_back(refused);
   const std::vector<std::string> rounded = rounding_lines(roundings);
   lines.insert(lines.end(), rounded.begin(), rounded.end());
   work.write_text((folder / "fragments.csv").string(),

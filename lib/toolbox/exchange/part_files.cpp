@@ -130,7 +130,8 @@ void write_parts(const std::string& path, const ConvexParts& parts, const MassPr
   write_file(path, urdf_text(path, parts.size(), mass, density));
 }
 
-Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density) {
+Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density,
+                         const Sentence& lengths) {
   constexpr double least_of_mujoco = 1e-14;  // mjEPS of its compiler
   const double least = density * mass.principal_moments.minCoeff();
   if (ending_of(path) != ".xml" || least >= least_of_mujoco) return "";
@@ -141,7 +142,7 @@ Sentence inertia_warning(const std::string& path, const MassProperties& mass, do
          format_number(least, 2) +
          ", and MuJoCo's limit is 1e-14. Use a smaller unit of length: "
          "multiply " +
-         mention("size") + " or " + mention("scale") + " by " + format_number(units) + ", set " +
+         lengths + " by " + format_number(units) + ", set " +
          mention("density", format_number(density / portable::pow(units, 3))) +
          ", and multiply gravity by " + format_number(units) + ".";
 }
@@ -153,7 +154,7 @@ Sentence write_parts(const std::string& path, const PartsResult& result,
   ConvexParts parts = result.parts;
   for (IndexedMesh& part : parts) part = in_frame(std::move(part), frame);
   write_parts(path, parts, mass, density);
-  return inertia_warning(path, mass, density);
+  return inertia_warning(path, mass, density, mention("size") + " or " + mention("scale"));
 }
 
 }  // namespace wscvt

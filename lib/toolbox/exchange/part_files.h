@@ -44,7 +44,9 @@ Sentence write_parts(const std::string& path, const PartsResult& result,
                      const FrameOptions& options, double density);
 
 /// Returns a warning with the unit to use if MuJoCo would refuse the inertia in a file of this
-/// name, else an empty text. `mass` as write_parts takes it, in metres.
-Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density);
+/// name, else an empty text. `mass` as write_parts takes it, in metres. `lengths`: what sets the
+/// unit, in words.
+Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density,
+                         const Sentence& lengths);
 
 }  // namespace wscvt
