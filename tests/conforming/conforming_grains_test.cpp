@@ -742,6 +742,20 @@ TEST(ConformingGrains, FragmentsHaveTheEdgesOfTheGrain) {
   EXPECT_ERROR(remesh_fragments(fragments, options, Execution(1)), InvalidInput);
 }
 
+TEST(ConformingGrains, RefusesFragmentsWithoutEnd) {
+  Fragments fragments = fragments_of(test::lumpy(2), 9);
+  ConformingOptions options;
+  options.edge_length = 1e-4;
+  const auto refused = [&] {
+    return test::refusal(ErrorCode::InvalidInput,
+                         [&] { remesh_fragments(fragments, options, Execution(1)); });
+  };
+  EXPECT_TRUE(holds(refused(), "million triangles, more than 4 million. Give a larger"));
+  options.edge_length = 0.0;
+  options.nodes = 1000000;
+  EXPECT_TRUE(holds(refused(), "Give fewer nodes."));
+}
+
 TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
   const auto refused = [](std::size_t grains, double edge) {
     return test::refusal(ErrorCode::InvalidInput, [&] { conformed(two_balls(), grains, edge); });

@@ -282,6 +282,22 @@ IndexedMesh outer_surface(const WallComplex& complex) {
   return surface;
 }
 
+/// `edges`: of each body; at a wall the geometric mean of both.
+void require_affordable(const WallComplex& walls, const std::vector<double>& edges,
+                        const Sentence& remedy) {
+  double triangles = 0.0;
+  for (const WallTriangle& t : walls.triangles) {
+    const auto& [a, b, c] = t.corners;
+    const double area = triangle_area(walls.points[a], walls.points[b], walls.points[c]);
+    const double square = edges[t.inner] * edges[t.outer < 0 ? t.inner : t.outer];
+    triangles += area / (0.25 * std::sqrt(3.0) * square);
+  }
+  if (triangles <= most_wall_triangles) return;
+  refuse("The walls would have about " + format_number(1e-6 * triangles, 3) +
+         " million triangles, more than " + format_number(1e-6 * most_wall_triangles) +
+         " million. " + remedy);
+}
+
 void measure_surface(const IndexedMesh& grain, double radius, ConformingGrains& remeshed,
                      const Execution& execution) {
   constexpr std::size_t samples = 5000;  // as in remesh()
@@ -307,6 +323,9 @@ ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions&
           ? edges_for(fragments.walls, volumes.size(), options.nodes)
           : edges_below(options.edge_length > 0.0 ? options.edge_length : fragments.grain_edge,
                         volumes);
+  require_affordable(fragments.walls, edges,
+                     options.nodes > 0 ? Sentence("Give fewer nodes.")
+                                       : "Give a larger " + mention(edge_length_option) + ".");
   // As of voxels, a third of the edges follows bent surfaces.
   std::vector<double> least = edges;
   for (double& edge : least) edge /= 3.0;

@@ -28,6 +28,9 @@ inline constexpr NumberOption<double> edge_length_option = {
 inline constexpr NumberOption<int> wall_nodes_option = {"nodes", "number of nodes of each grain", 0,
                                                         1000000};
 
+/// Largest number of triangles of remeshed fragments, which take some gigabytes on the way.
+inline constexpr double most_wall_triangles = 4e6;
+
 /// Throws Error(InvalidInput) for options out of range and for both an edge length and nodes.
 void check_conforming_options(const ConformingOptions& options);
 
@@ -94,7 +97,8 @@ ConformingGrains conform_grains(GrainVoxels voxels, std::size_t grains,
 /// triangles of their wall in common, walls stay where the cells met, and each fragment keeps its
 /// volume. Without an edge length or nodes the edges are as long as the grain's. Measures the
 /// fragments anew, and how far the grain's surface went. Returns the complex of `fragments.walls`,
-/// with 0 for what is of voxels. Throws Error: InvalidInput as check_conforming_options; Cancelled.
+/// with 0 for what is of voxels. Throws Error: InvalidInput as check_conforming_options and for
+/// more than most_wall_triangles; Cancelled.
 ConformingGrains remesh_fragments(Fragments& fragments, const ConformingOptions& options,
                                   const Execution& execution);
 
