@@ -742,6 +742,18 @@ TEST(ConformingGrains, FragmentsHaveTheEdgesOfTheGrain) {
   EXPECT_ERROR(remesh_fragments(fragments, options, Execution(1)), InvalidInput);
 }
 
+TEST(ConformingGrains, LongEdgesOfFragmentsAreDividedInStepsThatCanBeCancelled) {
+  Fragments fragments = fragments_of(test::box(1.0, 1.0, 1.0), 2);
+  ConformingOptions options;
+  options.edge_length = 0.2;
+  int reports = 0;
+  remesh_fragments(fragments, options, Execution(1, [&](double, const std::string& stage) {
+                     reports += stage == "Finding the walls" ? 1 : 0;
+                     return true;
+                   }));
+  EXPECT_GE(reports, 10);  // six steps of halves, and four rounds
+}
+
 TEST(ConformingGrains, RefusesFragmentsWithoutEnd) {
   Fragments fragments = fragments_of(test::lumpy(2), 9);
   ConformingOptions options;

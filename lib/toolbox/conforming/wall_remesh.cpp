@@ -277,6 +277,7 @@ void WallRemesher::refine(const Execution& execution) {
   // Cuts leave triangles that are flat and long. Their edges are halved with turns between, because
   // the parts of a long triangle are long as well.
   for (factor_ = 32.0; factor_ >= 1.0; factor_ *= 0.5) {
+    execution.report(0.0, "Finding the walls");
     split_long();
     flip_all(true);
     flip_all(true);
