@@ -409,7 +409,7 @@ std::array<std::string, 2> texts_of_grid(const std::vector<GridCell>& cells) {
   std::string ends;
   std::string types;
   std::string labels;
-  std::string shares;  // of 255, as VTK writes labels of 8 bits in text
+  std::string fractions;  // of 255, as VTK writes labels of 8 bits in text
   std::size_t count = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) {
     lists += std::to_string(cells[k].nodes.size());
@@ -422,7 +422,7 @@ std::array<std::string, 2> texts_of_grid(const std::vector<GridCell>& cells) {
     ends += std::to_string(count) + " ";
     types += std::to_string(cells[k].type) + " ";
     labels += std::to_string(100 + k % 2) + " ";
-    shares += std::to_string(static_cast<double>(100 + k % 2) / 255.0) + " ";
+    fractions += std::to_string(static_cast<double>(100 + k % 2) / 255.0) + " ";
   }
   const std::string number = std::to_string(cells.size());
   const auto array = [](const std::string& name, const std::string& type,
@@ -433,7 +433,7 @@ std::array<std::string, 2> texts_of_grid(const std::vector<GridCell>& cells) {
   return {vtk_head + "ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 float\n" + points + "\nCELLS " +
               number + " " + std::to_string(count + cells.size()) + "\n" + lists + "CELL_TYPES " +
               number + "\n" + types + "\nCELL_DATA " + number + "\nCOLOR_SCALARS label 1\n" +
-              shares + "\n",
+              fractions + "\n",
           "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"12\" "
           "NumberOfCells=\"" +
               number + "\"><Points>" + array("Points", "Float64", points) + "</Points><Cells>" +

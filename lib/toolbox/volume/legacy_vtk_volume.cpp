@@ -138,7 +138,7 @@ class VtkParser {
     } else if (key == "color_scalars") {
       // VTK writes every array of 8 bits so, in text by the 255th part.
       if (header_.is_text) {
-        file_->fail_line("holds labels of 8 bits as shares of 255. Save the file as BINARY.");
+        file_->fail_line("holds labels of 8 bits as fractions of 255. Save the file as BINARY.");
       }
       VtkArray array;
       array.name = fields.next();
