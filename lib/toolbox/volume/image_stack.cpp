@@ -157,34 +157,6 @@ std::map<std::string, std::vector<std::string>> series_of(const std::vector<std:
   return series;
 }
 
-/// Returns whether the last numbers of two series are different, as of one volume in two parts.
-bool may_be_one(const std::vector<std::string>& some, const std::vector<std::string>& others) {
-  std::set<std::optional<std::int64_t>> found;
-  for (const std::vector<std::string>* const paths : {&some, &others}) {
-    for (const std::string& path : *paths) {
-      const std::optional<std::int64_t> number = last_number(path);
-      if (!number || !found.insert(number).second) return false;
-    }
-  }
-  return true;
-}
-
-/// Whether the names of two series differ in digits, decimal points and signs alone.
-bool may_be_numbers(const std::string& one, const std::string& other) {
-  const auto rest = [](const std::string& path) {
-    std::string name = lower_case(fs::path(path).stem().string());
-    name.erase(std::remove_if(name.begin(), name.end(),
-                              [](char c) {
-                                return std::string("0123456789.,+-").find(c) < std::string::npos;
-                              }),
-               name.end());
-    return name;
-  };
-  const std::string pattern = numbered(one).pattern;
-  return (pattern != numbered(other).pattern || pattern.find("#.#") < std::string::npos) &&
-         rest(one) == rest(other);
-}
-
 /// Keeps the files of one series of slices, and adds the names of odd files, such as a preview, to
 /// `others`. Throws Error(InputOutput), naming them, for two series.
 void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
@@ -202,19 +174,12 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
   // A preview, a mask of one slice or a logo is one file or two.
   constexpr std::size_t most_odd = 2;
   if (series.size() > 1 && (series[1].size() > most_odd || series[1].size() == series[0].size())) {
-    refuse_volume(folder,
-                  "holds more than one series of slices: " + std::to_string(series[0].size()) +
-                      " files like " + name(series[0].front()) + " and " +
-                      std::to_string(series[1].size()) + " files like " + name(series[1].front()) +
-                      (may_be_one(series[0], series[1])
-                           ? ". No number is in both: if they are one volume, give all files names "
-                             "that differ in the number only. Else move one of them to a folder of "
-                             "its own."
-                       : may_be_numbers(series[0].front(), series[1].front())
-                           ? ". If their numbers have decimals or signs, give the slices whole "
-                             "numbers from 0 on, in their order. Else move one of them to a folder "
-                             "of its own."
-                           : ". Move one of them to a folder of its own."));
+    refuse_volume(
+        folder, "holds more than one series of slices: " + std::to_string(series[0].size()) +
+                    " files like " + name(series[0].front()) + " and " +
+                    std::to_string(series[1].size()) + " files like " + name(series[1].front()) +
+                    ". If they are one volume, number all slices alike by whole numbers from 0 on, "
+                    "in their order. Else move one of them to a folder of its own.");
   }
   for (std::size_t k = 1; k < series.size(); ++k) {
     for (const std::string& path : series[k]) others.push_back(slice_name(path));
@@ -266,59 +231,6 @@ std::vector<std::int64_t> rising_numbers(const std::vector<std::string>& paths) 
     if (!number || (!numbers.empty() && *number <= numbers.back())) return {};
     numbers.push_back(*number);
   }
-  return numbers;
-}
-
-/// Returns a number of hexadecimal digits in lower case, or nothing.
-std::optional<std::int64_t> hexadecimal_in(const std::string& text) {
-  constexpr std::size_t most_digits = 8;
-  if (text.empty() || text.size() > most_digits ||
-      text.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    return std::nullopt;
-  }
-  return std::stoll(text, nullptr, 16);
-}
-
-/// Sorts slices that are numbered in hexadecimal, such as s_08, s_09, s_0a. Returns their numbers;
-/// none, and nothing is sorted, for other names: names that differ in more than such a number, or
-/// whose numbers leave more than a tenth out, as decimal ones do.
-std::vector<std::int64_t> sort_hexadecimal(std::vector<std::string>& paths) {
-  std::vector<std::string> stems;
-  for (const std::string& path : paths) stems.push_back(lower_case(fs::path(path).stem().string()));
-  const auto [first, last] = std::minmax_element(stems.begin(), stems.end());
-  const auto differ = std::mismatch(first->begin(), first->end(), last->begin(), last->end());
-  const auto prefix = static_cast<std::size_t>(differ.first - first->begin());
-  std::size_t suffix = 0;  // behind the number, no digits
-  const auto ends_alike = [&](const std::string& stem) {
-    const std::string& one = stems.front();
-    return stem.size() > prefix + suffix && one.size() > prefix + suffix &&
-           stem[stem.size() - 1 - suffix] == one[one.size() - 1 - suffix];
-  };
-  while (std::all_of(stems.begin(), stems.end(), ends_alike)) ++suffix;
-  std::map<std::int64_t, std::string> by_number;
-  bool has_letter = false;
-  bool has_digits = false;
-  for (std::size_t k = 0; k < stems.size(); ++k) {
-    if (stems[k].size() < prefix + suffix) return {};
-    const std::string text = stems[k].substr(prefix, stems[k].size() - prefix - suffix);
-    const std::optional<std::int64_t> number = hexadecimal_in(text);
-    if (!number || !by_number.emplace(*number, paths[k]).second) return {};
-    const bool is_decimal = text.find_first_of("abcdef") == std::string::npos;
-    (is_decimal ? has_digits : has_letter) = true;
-  }
-  if (!has_letter || !has_digits) return {};
-  std::vector<std::int64_t> numbers;
-  std::vector<std::string> sorted;
-  std::int64_t step = std::numeric_limits<std::int64_t>::max();
-  for (const auto& [number, path] : by_number) {
-    if (!numbers.empty()) step = std::min(step, number - numbers.back());
-    numbers.push_back(number);
-    sorted.push_back(path);
-  }
-  const std::int64_t whole = (numbers.back() - numbers.front()) / step + 1;
-  const auto missing = whole - static_cast<std::int64_t>(numbers.size());
-  if (missing * 10 > whole) return {};
-  paths = std::move(sorted);
   return numbers;
 }
 
@@ -424,17 +336,11 @@ std::unique_ptr<LabelVolume> open_stack(const std::string& path, const VolumeCho
   }
   if (kind == slice_kinds) refuse_volume(path, sentence_without_slices(path, others));
   SliceFiles slices = {path, std::move(found[kind])};
-  std::vector<std::int64_t> numbers = sort_hexadecimal(slices.paths);
-  const bool is_hexadecimal = !numbers.empty();
-  if (!is_hexadecimal) {
-    keep_one_series(path, slices.paths, others);
-    check_numbers(path, slices.paths);
-    numbers = rising_numbers(slices.paths);
-  }
+  keep_one_series(path, slices.paths, others);
+  check_numbers(path, slices.paths);
   std::unique_ptr<LabelVolume> volume = slice_openers[kind](slices, choice);
   if (!others.empty()) volume->add_note(sentence_of_others(others));
-  if (is_hexadecimal) volume->add_note("The slices were read in the order of hexadecimal numbers.");
-  const std::string gap = sentence_of_gap(slices.paths, numbers);
+  const std::string gap = sentence_of_gap(slices.paths, rising_numbers(slices.paths));
   if (!gap.empty()) volume->add_warning(gap);
   return volume;
 }
