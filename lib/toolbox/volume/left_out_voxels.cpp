@@ -41,31 +41,16 @@ Corners corners_of(LabelVolume& scan, const Execution& execution) {
   return corners;
 }
 
-/// Changes 2 to 1 where it is connected to the border by faces, and to 0 elsewhere.
-void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
-  const VoxelGrid grid(counts);
-  std::vector<std::size_t> open;
-  const auto take = [&](std::size_t k) {
-    if (marks[k] != 2) return;
-    marks[k] = 1;
-    open.push_back(k);
+/// Changes 1 to 0 where it is not connected to the border by faces.
+void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCounts& counts,
+                              const Execution& execution) {
+  if (marks.empty()) return;
+  const auto invert = [&] {
+    for (std::uint8_t& mark : marks) mark ^= 1U;
   };
-  const auto is_at_border = [&](std::size_t k) {
-    const std::array<std::size_t, 3> place = grid.place(k);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (place[axis] == 0 || place[axis] + 1 == grid.sizes[axis]) return true;
-    }
-    return false;
-  };
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    if (marks[k] == 2 && is_at_border(k)) take(k);
-  }
-  while (!open.empty()) {
-    const std::size_t k = open.back();
-    open.pop_back();
-    for_each_neighbour(k, counts, take);
-  }
-  std::replace(marks.begin(), marks.end(), std::uint8_t{2}, std::uint8_t{0});
+  invert();
+  fill_holes(marks, counts, execution);
+  invert();
 }
 
 /// Whether most neighbours of marked voxels are marked: noise that has the value by chance is
@@ -329,15 +314,15 @@ std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execut
   if (!is_filled && !corners.has_nan) return {};
   std::vector<std::uint8_t> nan;
   std::vector<std::uint8_t> filled;
-  for_each_row(scan, execution.part(0.5, 1.0), "Reading the volume",
+  for_each_row(scan, execution.part(0.5, 0.9), "Reading the volume",
                [&](const std::vector<Label>& row) {
                  for (const Label value : row) {
-                   if (corners.has_nan) nan.push_back(value == 0 ? 2 : 0);
-                   if (is_filled) filled.push_back(value == most.first ? 2 : 0);
+                   if (corners.has_nan) nan.push_back(value == 0 ? 1 : 0);
+                   if (is_filled) filled.push_back(value == most.first ? 1 : 0);
                  }
                });
-  keep_connected_to_border(nan, counts);
-  keep_connected_to_border(filled, counts);
+  keep_connected_to_border(nan, counts, execution.part(0.9, 0.95));
+  keep_connected_to_border(filled, counts, execution.part(0.95, 1.0));
   const auto count_of = [](const std::vector<std::uint8_t>& marks) {
     return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1));
   };
