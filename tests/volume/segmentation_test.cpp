@@ -621,56 +621,6 @@ TEST_F(SegmentationOfTwoMinerals, LittleNoiseMakesNoPhases) {
   }
 }
 
-// Boxes along the axes, with faces in the middle of voxels: many voxels have one value.
-TEST_F(SegmentationOfFourBalls, FlatFacesAreNoFilm) {
-  for (const double noise : {0.0, 9.0}) {
-    made_ = MadeVolume({54, 54, 27});
-    std::mt19937 random(8);
-    for (std::size_t k = 0; k < made_.labels.size(); ++k) {
-      const int n = static_cast<int>(k);
-      const std::array<int, 3> at = {n % 54, n / 54 % 54, n / (54 * 54)};
-      double share = 1.0;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double place = axis == 2 ? at[axis] : at[axis] % 27;
-        share *= std::clamp(9.6 - std::abs(place - 13.0), 0.0, 1.0);
-      }
-      made_.labels[k] = static_cast<Label>(40.0 + 140.0 * share +
-                                           (noise > 0.0 ? static_cast<double>(random() % 9) : 0.0));
-    }
-    write_made();
-    const Segmentation found = segmented();
-    EXPECT_EQ(found.grains.size(), 4U);
-    EXPECT_TRUE(found.steps.empty()) << looks(found);
-  }
-}
-
-TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
-  // Between phases at 40 and 180; blur has the fewest in the middle.
-  std::vector<std::uint64_t> counts(256, 0);
-  for (int k = 30; k < 190; ++k) {
-    counts[static_cast<std::size_t>(k)] = static_cast<std::uint64_t>(300 + (k - 110) * (k - 110));
-  }
-  EXPECT_FALSE(film_between(counts, 110.0, 140.0));
-  for (std::size_t k = 84; k < 96; ++k) counts[k] += 6000;
-  const std::optional<double> film = film_between(counts, 110.0, 140.0);
-  ASSERT_TRUE(film);
-  EXPECT_NEAR(*film, 90.0, 7.0) << "a window";
-
-  Segmentation found;
-  found.voxels = 10000;
-  found.material = 1500;
-  found.peaks = {40.0, 180.0};
-  found.steps = {{40.0, 110.0, 180.0, 0.0, 1.0}};
-  bool is_told = false;
-  for (const Sentence& doubt : doubts_of(found)) {
-    const std::string text = doubt.text();
-    is_told = is_told || (text.find("a layer less than 2 voxels thick") != std::string::npos &&
-                          text.find("--threshold 75;") != std::string::npos &&
-                          text.find("--threshold 145.") != std::string::npos);
-  }
-  EXPECT_TRUE(is_told);
-}
-
 TEST_F(SegmentationOfTwoMinerals, TakesBothNamesThePeaksAndFollowsItsAdvice) {
   make({void_grey, quartz, 220});
   write_made();

@@ -291,51 +291,6 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
   }
 }
 
-/// Whether most voxels near a grey value between two phases have one phase before and the other
-/// behind them along an axis: flat faces of a made volume that has no blur, and no film.
-bool are_between_phases(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
-                        double value, double first, double second) {
-  const std::array<std::size_t, 3> steps = VoxelGrid(sizes).steps;
-  const double contrast = std::abs(second - first);
-  const auto is_near = [&](std::size_t k, double phase, double share) {
-    return std::abs(static_cast<double>(grey[k]) - phase) < share * contrast;
-  };
-  constexpr double same_value = 0.1;
-  constexpr double same_phase = 0.15;
-  std::size_t found = 0;
-  std::size_t between = 0;
-  for (std::size_t k = steps[2]; k + steps[2] < grey.size(); ++k) {
-    if (!is_near(k, value, same_value)) continue;
-    ++found;
-    between += std::any_of(steps.begin(), steps.end(), [&](std::size_t step) {
-      const std::size_t low = grey[k - step] < grey[k + step] ? k - step : k + step;
-      const std::size_t high = k - step + (k + step - low);
-      return is_near(low, std::min(first, second), same_phase) &&
-             is_near(high, std::max(first, second), same_phase);
-    });
-  }
-  return 2 * between > found;
-}
-
-/// Measures the blur. Returns the steps of a layer that is too thin for profiles, if there is one.
-std::vector<EdgeSteps> measure_edges(const ShortGrey& scan,
-                                     const std::vector<std::uint8_t>& outside,
-                                     const VoxelCounts& sizes, const GreyCounts& counts,
-                                     const std::vector<GreyPeak>& peaks, Segmentation& result) {
-  const double level = (result.threshold - scan.base) / scan.step;
-  // Soft grains have no peak of their own among all voxels.
-  const double contrast = peaks.size() == 2 ? static_cast<double>(peaks[1].value - peaks[0].value)
-                                            : contrast_at(counts.all, level);
-  result.blur = blur_at(scan.grey, outside, sizes, {level, contrast, false, 1});
-  if (peaks.size() != 2) return {};
-  const std::optional<double> film = film_between(counts.all, level, contrast);
-  auto space = static_cast<double>(peaks[0].value);
-  auto inside = static_cast<double>(peaks[1].value);
-  if (!film || are_between_phases(scan.grey, sizes, *film, space, inside)) return {};
-  if (result.is_dark) std::swap(space, inside);
-  return {{space, *film, inside, 0.0, 1.0}};
-}
-
 /// Edge of a cube with the volume of a voxel; a length.
 double voxel_length(const VolumeGeometry& geometry) {
   return portable::cbrt(geometry.axes.colwise().norm().prod());
@@ -483,9 +438,8 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   result.brightest_space = values.base + values.step * brightest;
 }
 
-/// Notes the layers of the grains, or those that are too `thin` for lines across the surface.
-void note_layers(EdgeLayers layers, const std::vector<EdgeSteps>& thin, const ShortGrey& values,
-                 Segmentation& result) {
+/// Notes the layers of the grains.
+void note_layers(EdgeLayers layers, const ShortGrey& values, Segmentation& result) {
   result.has_fringes = layers.has_fringes;
   if (result.has_fringes) {
     // The rims beside grains fill the void where grains are close.
@@ -493,10 +447,6 @@ void note_layers(EdgeLayers layers, const std::vector<EdgeSteps>& thin, const Sh
     return;
   }
   result.steps = std::move(layers.steps);
-  const bool has_layer =
-      std::any_of(result.steps.begin(), result.steps.end(),
-                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
-  if (!has_layer) result.steps.insert(result.steps.end(), thin.begin(), thin.end());
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) {
       *value = values.base + values.step * *value;
@@ -527,9 +477,9 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     peaks.clear();
     result.threshold =
         options.threshold ? *options.threshold : base + step * level_of(counts, options, peaks);
-    const double level = (result.threshold - base) / step;
+    const double at = (result.threshold - base) / step;
     mask = level_mask(grey, left_out, sizes,
-                      {level, contrast_at(counts.all, level), options.dark, result.medians},
+                      {at, contrast_at(counts.all, at), options.dark, result.medians},
                       execution.part(0.4, 0.45));
   };
   if (!options.threshold && !options.phases) {
@@ -554,18 +504,16 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     result.is_flat =
         !are_phases(grey, scan.geometry(), smoothed, options, execution.part(0.5, 0.55));
   }
-  const std::vector<EdgeSteps> thin = measure_edges(values, left_out, sizes, counts, peaks, result);
-  const std::optional<Phases> phases =
-      phases_of(peaks, (result.threshold - base) / step, options.dark);
+  const double level = (result.threshold - base) / step;
+  // Soft grains have no peak of their own among all voxels.
+  const double contrast = peaks.size() == 2 ? static_cast<double>(peaks[1].value - peaks[0].value)
+                                            : contrast_at(counts.all, level);
+  result.blur = blur_at(values.grey, left_out, sizes, {level, contrast, false, 1});
+  const std::optional<Phases> phases = phases_of(peaks, level, options.dark);
   if (!phases) return mask;
   const Vector3 spacing = scan.geometry().axes.colwise().norm();
-  const LevelledVolume volume = {grey,
-                                 mask,
-                                 left_out,
-                                 sizes,
-                                 {spacing[0], spacing[1], spacing[2]},
-                                 (result.threshold - base) / step,
-                                 result.blur};
+  const LevelledVolume volume = {
+      grey, mask, left_out, sizes, {spacing[0], spacing[1], spacing[2]}, level, result.blur};
   // Smoothing hides thin layers. The scan is read again, because its values would add 2 bytes a
   // voxel to the watershed's memory.
   EdgeLayers layers;
@@ -573,7 +521,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       layers, execution.part(0.55, 1.0));
-  note_layers(std::move(layers), thin, values, result);
+  note_layers(std::move(layers), values, result);
   return mask;
 }
 

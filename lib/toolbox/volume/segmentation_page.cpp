@@ -177,12 +177,9 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
   bool goes_on = false;
   for (const EdgeSteps& steps : segmentation.steps) {
     if (!steps.are_told()) continue;
-    const std::string layer =
-        (steps.thickness == 0.0 ? "a layer less than 2 voxels thick"
-                                : "a layer about " + format_number(steps.thickness, 2) +
-                                      " voxels thick at the surface of " +
-                                      format_percent(steps.fraction) + " of the grains") +
-        " is near " + format_number(steps.layer, 4);
+    const std::string layer = "a layer about " + format_number(steps.thickness, 2) +
+                              " voxels thick at the surface of " + format_percent(steps.fraction) +
+                              " of the grains is near " + format_number(steps.layer, 4);
     const std::string values = ", the void near " + format_number(steps.space, 4) +
                                " and the inside near " + format_number(steps.inside, 4);
     const auto between = [](double a, double b) {
@@ -191,7 +188,7 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
     if (steps.goes_on()) {
       goes_on = true;
       // Another peak is the layer's, and counts as material.
-      const bool is_outer = steps.thickness > 0.0 && segmentation.peaks.size() > 2 &&
+      const bool is_outer = segmentation.peaks.size() > 2 &&
                             (segmentation.threshold < steps.layer) != segmentation.is_dark;
       doubts.push_back(
           "Grey values change in two steps from the void to the inside of grains: " + layer +
@@ -226,7 +223,7 @@ bool are_of_layers(const Segmentation& segmentation) {
   return std::all_of(peaks.begin(), peaks.end(), [&](double peak) {
     return std::any_of(segmentation.steps.begin(), segmentation.steps.end(),
                        [&](const EdgeSteps& steps) {
-                         if (steps.fraction < most || steps.thickness == 0.0) return false;
+                         if (steps.fraction < most) return false;
                          const double nearest =
                              std::min({std::abs(peak - steps.space), std::abs(peak - steps.layer),
                                        std::abs(peak - steps.inside)});
