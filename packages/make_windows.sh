@@ -23,7 +23,7 @@ x86_64-w64-mingw32-strip "$folder/wscvt/wscvt.exe"
 # Lines as Windows' editors want them.
 sed 's/$/\r/' "$here/windows/README.txt" > "$folder/wscvt/README.txt"
 for package in libeigen3-dev libcgal-dev libboost-dev libopenmesh-dev nlohmann-json3-dev libcli11-dev libstb-dev \
-  libbz2-dev liblz4-dev libminizip-dev libniftiio-dev libpng-dev libtiff-dev libexpat1-dev libz-mingw-w64-dev \
+  liblz4-dev libminizip-dev libniftiio-dev libpng-dev libtiff-dev libexpat1-dev libz-mingw-w64-dev \
   mingw-w64-common gcc-mingw-w64-base; do
   for text in "/usr/share/doc/$package/copyright" "/usr/share/doc/$package/copyright.gz"; do
     [ ! -e "$text" ] || cp "$text" "$folder/wscvt/licences/$package.txt"

@@ -7,7 +7,7 @@ set -eu
 packages="
   g++ cmake ninja-build clang-format clang-tidy dpkg-dev
   libopenmesh-dev libeigen3-dev libcgal-dev libboost-dev zlib1g-dev nlohmann-json3-dev
-  libtiff-dev libexpat1-dev libpng-dev libbz2-dev libstb-dev liblz4-dev libminizip-dev libnifti2-dev libhdf5-dev
+  libtiff-dev libexpat1-dev libpng-dev libstb-dev liblz4-dev libminizip-dev libnifti2-dev libhdf5-dev
   libinsighttoolkit5-dev libgmsh-dev
   pkg-config
   libcli11-dev libgtest-dev libbenchmark-dev gnuplot-nox time python3

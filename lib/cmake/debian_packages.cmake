@@ -44,7 +44,7 @@ nodes, with its headers and what find_package(wscvt) needs.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libwscvt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libopenmesh-dev, libeigen3-dev, libcgal-dev, zlib1g-dev, nlohmann-json3-dev, libtiff-dev, libexpat1-dev, libpng-dev, libbz2-dev, liblz4-dev, libminizip-dev, libnifti2-dev, libhdf5-dev")
+  "libopenmesh-dev, libeigen3-dev, libcgal-dev, zlib1g-dev, nlohmann-json3-dev, libtiff-dev, libexpat1-dev, libpng-dev, liblz4-dev, libminizip-dev, libnifti2-dev, libhdf5-dev")
 if(WSCVT_HAS_ITK)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libinsighttoolkit5-dev")
 endif()

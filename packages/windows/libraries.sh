@@ -14,7 +14,7 @@ part=$folder.part
 rm -rf "$part"
 mkdir -p "$part/include" "$part/lib/pkgconfig" "$part/lib/cmake" "$part/work"
 host=x86_64-w64-mingw32
-for package in openmesh zlib bzip2 lz4 libpng1.6 tiff expat nifticlib; do
+for package in openmesh zlib lz4 libpng1.6 tiff expat nifticlib; do
   "$root/packages/debian_source.sh" $package "$sources/$package"
 done
 
@@ -50,10 +50,6 @@ cd "$sources"
   mkdir "$part/include/OpenMesh"
   find Core Tools \( -name '*.h' -o -name '*.hh' -o -name '*.inl' \) -exec cp --parents -t "$part/include/OpenMesh" {} +
 )
-archive bz2 "-DBZ_EXPORT" bzip2/blocksort.c bzip2/huffman.c bzip2/crctable.c bzip2/randtable.c \
-  bzip2/compress.c bzip2/decompress.c bzip2/bzlib.c
-# Without the header of Windows, whose macros are words such as far.
-sed 's/^#ifdef _WIN32/#if 0/' bzip2/bzlib.h > "$part/include/bzlib.h"
 archive lz4 "" lz4/lib/*.c
 cp lz4/lib/*.h "$part/include"
 describe liblz4 lz4

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/volume/byte_source.h"
 
-#ifdef WSCVT_HAS_PACKERS
-#include <bzlib.h>
-#endif
 #include <zlib.h>
 
 #include <algorithm>
@@ -15,7 +12,6 @@
 #include <fstream>
 #include <new>
 #include <optional>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,79 +58,35 @@ class FileBytes : public ByteSource {
   std::ifstream stream_;
 };
 
-/// What a step of unpacking came to.
-enum class Unpacking { GoesOn, HasEnded, IsDamaged };
-
-/// zlib's stream of gzip or zlib, which it distinguishes by their first bytes.
-struct Inflater {
-  z_stream stream = {};
-
-  Inflater() {
-    constexpr int gzip_or_zlib = 32;
-    if (::inflateInit2(&stream, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
-  }
-  ~Inflater() { ::inflateEnd(&stream); }
-  Unpacking step() {
-    const int outcome = ::inflate(&stream, Z_NO_FLUSH);
-    if (outcome == Z_STREAM_END) return Unpacking::HasEnded;
-    return outcome == Z_OK || outcome == Z_BUF_ERROR ? Unpacking::GoesOn : Unpacking::IsDamaged;
-  }
-  void restart() { ::inflateReset(&stream); }
-};
-
-#ifdef WSCVT_HAS_PACKERS
-struct Bunzipper {
-  bz_stream stream = {};
-
-  Bunzipper() { begin(); }
-  ~Bunzipper() { ::BZ2_bzDecompressEnd(&stream); }
-  void begin() {
-    if (::BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) throw std::bad_alloc();
-  }
-  Unpacking step() {
-    const int outcome = ::BZ2_bzDecompress(&stream);
-    if (outcome == BZ_STREAM_END) return Unpacking::HasEnded;
-    return outcome == BZ_OK ? Unpacking::GoesOn : Unpacking::IsDamaged;
-  }
-  void restart() {
-    char* const next = stream.next_in;
-    const unsigned left = stream.avail_in;
-    ::BZ2_bzDecompressEnd(&stream);
-    stream = {};
-    begin();
-    stream.next_in = next;
-    stream.avail_in = left;
-  }
-};
-#endif
-
-/// Consecutive packed streams.
-template <class Unpacker>
-class UnpackedBytes : public ByteSource {
+/// Consecutive streams of gzip or zlib, which zlib distinguishes by their first bytes.
+class InflatedBytes : public ByteSource {
  public:
-  UnpackedBytes(std::unique_ptr<ByteSource> packed, std::string path)
-      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {}
-  UnpackedBytes(const UnpackedBytes&) = delete;
-  UnpackedBytes& operator=(const UnpackedBytes&) = delete;
+  InflatedBytes(std::unique_ptr<ByteSource> packed, std::string path)
+      : packed_(std::move(packed)), path_(std::move(path)), buffer_(block_size / 4) {
+    constexpr int gzip_or_zlib = 32;
+    if (::inflateInit2(&stream_, MAX_WBITS + gzip_or_zlib) != Z_OK) throw std::bad_alloc();
+  }
+  InflatedBytes(const InflatedBytes&) = delete;
+  InflatedBytes& operator=(const InflatedBytes&) = delete;
+  ~InflatedBytes() override { ::inflateEnd(&stream_); }
 
   std::size_t read(char* bytes, std::size_t count) override {
-    auto& stream = unpacker_.stream;
-    using Byte = std::remove_pointer_t<decltype(stream.next_out)>;
     std::size_t filled = 0;
     while (filled < count) {
-      if (stream.avail_in == 0) {
+      if (stream_.avail_in == 0) {
         const std::size_t got = packed_->read(buffer_.data(), buffer_.size());
         if (got == 0) return filled;
-        stream.next_in = reinterpret_cast<Byte*>(buffer_.data());
-        stream.avail_in = static_cast<unsigned>(got);
+        stream_.next_in = reinterpret_cast<Bytef*>(buffer_.data());
+        stream_.avail_in = static_cast<unsigned>(got);
       }
       const auto wanted = static_cast<unsigned>(std::min(count - filled, block_size));
-      stream.next_out = reinterpret_cast<Byte*>(bytes + filled);
-      stream.avail_out = wanted;
-      const Unpacking outcome = unpacker_.step();
-      filled += wanted - stream.avail_out;
-      if (outcome == Unpacking::HasEnded) unpacker_.restart();
-      if (outcome == Unpacking::IsDamaged) {
+      stream_.next_out = reinterpret_cast<Bytef*>(bytes + filled);
+      stream_.avail_out = wanted;
+      const int outcome = ::inflate(&stream_, Z_NO_FLUSH);
+      filled += wanted - stream_.avail_out;
+      if (outcome == Z_STREAM_END) {
+        ::inflateReset(&stream_);
+      } else if (outcome != Z_OK && outcome != Z_BUF_ERROR) {
         refuse_volume(path_,
                       "holds packed voxels that are damaged. Copy the file again, or export it "
                       "again.");
@@ -147,7 +99,7 @@ class UnpackedBytes : public ByteSource {
   std::unique_ptr<ByteSource> packed_;
   std::string path_;
   std::vector<char> buffer_;
-  Unpacker unpacker_;
+  z_stream stream_ = {};
 };
 
 /// The characters of a text, one after the other.
@@ -358,17 +310,7 @@ std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t of
 }
 
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
-  return std::make_unique<UnpackedBytes<Inflater>>(std::move(packed), std::move(path));
-}
-
-// NOLINTNEXTLINE(performance-unnecessary-value-param): moved where there is bzip2
-std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
-#ifdef WSCVT_HAS_PACKERS
-  return std::make_unique<UnpackedBytes<Bunzipper>>(std::move(packed), std::move(path));
-#else
-  (void)packed;
-  refuse_volume(path, "is packed by bzip2, which this program was built without. Unpack it first.");
-#endif
+  return std::make_unique<InflatedBytes>(std::move(packed), std::move(path));
 }
 
 std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text) {

@@ -46,9 +46,6 @@ std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t of
 /// Error(InputOutput), naming the file `path`, if they are damaged.
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path);
 
-/// Returns the unpacked bytes of bzip2 streams in the same way.
-std::unique_ptr<ByteSource> bunzipped_bytes(std::unique_ptr<ByteSource> packed, std::string path);
-
 /// Decodes consecutive base64 texts in `text`, up to the first character that is not base64. Skips
 /// white space.
 std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text);

@@ -277,10 +277,8 @@ std::int64_t layer_of(const std::vector<VolumeAxis>& axes, const VolumeChoice& c
 Packing packing_of(const std::string& encoding, const std::string& path) {
   if (encoding == "raw") return Packing::None;
   if (encoding == "gzip" || encoding == "gz") return Packing::Deflate;
-  if (encoding == "bzip2" || encoding == "bz2") return Packing::Bzip2;
   if (encoding == "ascii" || encoding == "text" || encoding == "txt") return Packing::Text;
-  refuse_volume(
-      path, "is packed as " + in_quotes(encoding) + ". Save it raw, ascii, or as gzip or bzip2.");
+  refuse_volume(path, "is packed as " + in_quotes(encoding) + ". Save it raw, ascii or as gzip.");
 }
 
 }  // namespace

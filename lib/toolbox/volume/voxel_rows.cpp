@@ -261,8 +261,7 @@ std::uint64_t stored_bytes(const VoxelCounts& counts, const VoxelType& type,
 void check_voxel_bytes(std::uint64_t wanted, std::uint64_t left, Packing packing,
                        const std::string& path) {
   std::uint64_t least = wanted;
-  if (packing == Packing::Deflate) least = wanted / 1100;   // at best one byte for 1032
-  if (packing == Packing::Bzip2) least = wanted / 1000000;  // 900 kB of equal bytes take 40
+  if (packing == Packing::Deflate) least = wanted / 1100;  // at best one byte for 1032
   if (packing == Packing::Text) least = wanted / sizeof(double) * 2 - 1;  // a digit and a blank
   if (least <= left) return;
   refuse_volume(path, "holds " + std::to_string(left) + " bytes of voxels, but its size needs " +
@@ -311,7 +310,6 @@ std::unique_ptr<LabelVolume> volume_of_files(const VolumeGeometry& geometry, Vox
   const auto open = [packing](const std::string& path, std::uint64_t offset) {
     std::unique_ptr<ByteSource> bytes = file_bytes(path, offset);
     if (packing == Packing::Deflate) return inflated_bytes(std::move(bytes), path);
-    if (packing == Packing::Bzip2) return bunzipped_bytes(std::move(bytes), path);
     if (packing == Packing::Text) return bytes_of_numbers(std::move(bytes), path);
     return bytes;
   };

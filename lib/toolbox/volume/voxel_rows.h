@@ -43,8 +43,7 @@ std::uint64_t stored_bytes(const VoxelCounts& counts, const VoxelType& type,
 enum class Packing {
   None,
   Deflate,  ///< gzip or zlib
-  Bzip2,
-  Text  ///< printed numbers; they become doubles
+  Text      ///< printed numbers; they become doubles
 };
 
 /// Position of the voxels of a volume, in their order, x fastest.
