@@ -49,7 +49,7 @@ class ImageJText {
     const std::size_t place = text_.find("\n" + key + "=");
     if (place == std::string::npos) return "";
     const std::size_t begin = place + key.size() + 2;
-    return std::string(trimmed_of(text_.substr(begin, text_.find('\n', begin) - begin)));
+    return std::string(trimmed(text_.substr(begin, text_.find('\n', begin) - begin)));
   }
 
   std::int64_t count(const std::string& key) const {
@@ -57,11 +57,6 @@ class ImageJText {
   }
 
  private:
-  static std::string trimmed_of(std::string text) {
-    while (!text.empty() && (text.back() == '\r' || text.back() == ' ')) text.pop_back();
-    return text;
-  }
-
   std::string text_;
 };
 
