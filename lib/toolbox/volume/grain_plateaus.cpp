@@ -115,28 +115,6 @@ void grow(std::vector<std::uint32_t>& labels, const VoxelCounts& counts) {
   }
 }
 
-/// Sets plateaus that are not those of the surface to the phase nearest to the void: where more
-/// voxels are on the side of the void than a blurred edge has, a rim lies around an inclusion.
-void correct_rims(const Depths& depths, const Phases& phases, std::vector<double>& plateaus) {
-  // Voxels of the edge for each at the surface: up to 2.1 among 290 grains of 1.1 to 5 times the
-  // usual contrast, by blurs of .8 voxels.
-  constexpr double thickest = 2.3;
-  std::vector<std::array<std::size_t, 2>> found(plateaus.size(), {0, 0});
-  for (std::size_t k = 0; k < depths.grey.size(); ++k) {
-    if (depths.mask[k] == 0) continue;
-    const std::uint32_t label = depths.basins.labels[k];
-    const double depth = depths.of(k);
-    const double full = plateaus[label] - phases.space;
-    if (depth < 1.1) ++found[label][0];
-    if (depth <= 2.0 * reach && (depths.grey[k] - phases.space) / full < 0.5) ++found[label][1];
-  }
-  for (std::size_t k = 1; k < plateaus.size(); ++k) {
-    if (static_cast<double>(found[k][1]) > thickest * static_cast<double>(found[k][0])) {
-      plateaus[k] = phases.materials.front();
-    }
-  }
-}
-
 }  // namespace
 
 EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::uint16_t>& scan,
@@ -145,7 +123,6 @@ EvenContrast even_contrast(const LevelledVolume& volume, const std::vector<std::
   const double voxel = portable::cbrt(volume.spacing[0] * volume.spacing[1] * volume.spacing[2]);
   const Depths depths = {grey, volume.mask, basins, voxel};
   std::vector<double> plateaus = plateaus_of(depths, phases, volume.blur);
-  correct_rims(depths, phases, plateaus);
   const bool is_dark = phases.materials.front() < phases.space;
   EvenContrast result;
   result.layers = use_layers(volume, scan, basins.labels, is_dark, phases.space, plateaus);
