@@ -53,18 +53,6 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
   invert();
 }
 
-/// Whether most neighbours of marked voxels are marked: noise that has the value by chance is
-/// scattered.
-bool hangs_together(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
-  std::size_t pairs = 0;
-  std::size_t alike = 0;
-  for_each_pair(counts, [&](std::size_t a, std::size_t b) {
-    pairs += marks[a] | marks[b];
-    alike += marks[a] & marks[b];
-  });
-  return 2 * alike > pairs;
-}
-
 /// Whether the voxels of 0 are nearly convex along each axis, and reach across the volume.
 bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
   const VoxelGrid grid(counts);
@@ -328,7 +316,7 @@ std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execut
   };
   constexpr std::size_t fewest = 200;  // of so many voxels one
   const std::size_t found = count_of(filled);
-  if (found * fewest < filled.size() || found == filled.size() || !hangs_together(filled, counts) ||
+  if (found * fewest < filled.size() || found == filled.size() ||
       !leaves_a_convex_body(filled, counts)) {
     filled.clear();
   }
