@@ -621,6 +621,33 @@ TEST_F(SegmentationOfTwoMinerals, LittleNoiseMakesNoPhases) {
   }
 }
 
+TEST(Film, IsARiseBetweenTwoPhasesAndIsTold) {
+  // Between phases at 40 and 180; blur has the fewest in the middle.
+  std::vector<std::uint64_t> counts(256, 0);
+  for (int k = 30; k < 190; ++k) {
+    counts[static_cast<std::size_t>(k)] = static_cast<std::uint64_t>(300 + (k - 110) * (k - 110));
+  }
+  EXPECT_FALSE(film_between(counts, 110.0, 140.0));
+  for (std::size_t k = 84; k < 96; ++k) counts[k] += 6000;
+  const std::optional<double> film = film_between(counts, 110.0, 140.0);
+  ASSERT_TRUE(film);
+  EXPECT_NEAR(*film, 90.0, 7.0) << "a window";
+
+  Segmentation found;
+  found.voxels = 10000;
+  found.material = 1500;
+  found.peaks = {40.0, 180.0};
+  found.steps = {{40.0, 110.0, 180.0, 0.0, 1.0}};
+  bool is_told = false;
+  for (const Sentence& doubt : doubts_of(found)) {
+    const std::string text = doubt.text();
+    is_told = is_told || (text.find("a layer less than 2 voxels thick") != std::string::npos &&
+                          text.find("--threshold 75;") != std::string::npos &&
+                          text.find("--threshold 145.") != std::string::npos);
+  }
+  EXPECT_TRUE(is_told);
+}
+
 TEST_F(SegmentationOfTwoMinerals, TakesBothNamesThePeaksAndFollowsItsAdvice) {
   make({void_grey, quartz, 220});
   write_made();

@@ -236,6 +236,41 @@ double otsu_level(const std::vector<std::uint64_t>& counts) {
   return level;
 }
 
+std::optional<double> film_between(const std::vector<std::uint64_t>& counts, double level,
+                                   double contrast) {
+  // Without the phases themselves.
+  constexpr double reach = 0.35;
+  const double begin = std::ceil(level - reach * contrast);
+  const auto width = static_cast<std::size_t>(std::max(1.0, std::round(0.05 * contrast)));
+  const auto bins = static_cast<std::size_t>(2.0 * reach * contrast / static_cast<double>(width));
+  const double end = begin + static_cast<double>(bins * width);
+  if (bins < 5 || begin < 0.0 || end > static_cast<double>(counts.size())) return std::nullopt;
+  const auto first = static_cast<std::size_t>(begin);
+  std::vector<double> sums(bins, 0.0);
+  for (std::size_t k = 0; k < bins * width; ++k) {
+    sums[k / width] += static_cast<double>(counts[first + k]);
+  }
+  std::vector<double> smooth = sums;
+  for (std::size_t k = 1; k + 1 < bins; ++k) {
+    smooth[k] = 0.25 * sums[k - 1] + 0.5 * sums[k] + 0.25 * sums[k + 1];
+  }
+  // Blur and noise alone gave up to 1.06 in studies of balls, films of 1.6 to 3.5 voxels 1.5 and
+  // more. Few voxels rise by chance.
+  constexpr double least_rise = 1.4;
+  constexpr double fewest = 400.0;
+  double most = least_rise;
+  std::optional<double> found;
+  for (std::size_t k = 1; k + 1 < bins; ++k) {
+    const auto here = smooth.begin() + static_cast<std::ptrdiff_t>(k);
+    const double valley = std::max(
+        {*std::min_element(smooth.begin(), here), *std::min_element(here + 1, smooth.end()), 1.0});
+    if (*here < fewest || *here < most * valley) continue;
+    most = *here / valley;
+    found = begin + (static_cast<double>(k) + 0.5) * static_cast<double>(width);
+  }
+  return found;
+}
+
 double contrast_at(const std::vector<std::uint64_t>& counts, double level) {
   const auto size = static_cast<double>(counts.size());
   const auto parted = static_cast<std::size_t>(std::clamp(std::ceil(level), 0.0, size));

@@ -402,6 +402,12 @@ std::pair<double, double> usual_range(std::vector<double> values) {
 /// Notes the grey values of the void in parts of the volume if they differ by much of the contrast.
 /// Or if both ends of the grey values do, one by more: then beam hardening darkens grains below the
 /// threshold. Several minerals do not change the void, nor do parts
+  const bool has_layer =
+      std::any_of(result.steps.begin(), result.steps.end(),
+                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
+  if (film && !has_layer) {
+    result.steps.push_back({phases.space, *film, phases.materials.front(), 0.0, 1.0});
+  }
 /// without grains.
 void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
                 const std::vector<std::uint8_t>& left_out, const VoxelCounts& sizes,
@@ -438,8 +444,9 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   result.brightest_space = values.base + values.step * brightest;
 }
 
-/// Notes the layers of the grains.
-void note_layers(EdgeLayers layers, const ShortGrey& values, Segmentation& result) {
+/// Notes the layers of the grains, or a `film` that is too thin for lines across the surface.
+void note_layers(EdgeLayers layers, const std::optional<double>& film, const Phases& phases,
+                 const ShortGrey& values, Segmentation& result) {
   result.has_fringes = layers.has_fringes;
   if (result.has_fringes) {
     // The rims beside grains fill the void where grains are close.
@@ -521,7 +528,9 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
       volume, scan.geometry(), *phases, result.medians,
       [&](const Execution& reading) { return short_grey(scan, range, left_out, reading).grey; },
       layers, execution.part(0.55, 1.0));
-  note_layers(std::move(layers), values, result);
+  std::optional<double> film;
+  if (peaks.size() == 2) film = film_between(counts.all, level, contrast);
+  note_layers(std::move(layers), film, *phases, values, result);
   return mask;
 }
 

@@ -177,9 +177,12 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
   bool goes_on = false;
   for (const EdgeSteps& steps : segmentation.steps) {
     if (!steps.are_told()) continue;
-    const std::string layer = "a layer about " + format_number(steps.thickness, 2) +
-                              " voxels thick at the surface of " + format_percent(steps.fraction) +
-                              " of the grains is near " + format_number(steps.layer, 4);
+    const std::string layer =
+        (steps.thickness == 0.0 ? "a layer less than 2 voxels thick"
+                                : "a layer about " + format_number(steps.thickness, 2) +
+                                      " voxels thick at the surface of " +
+                                      format_percent(steps.fraction) + " of the grains") +
+        " is near " + format_number(steps.layer, 4);
     const std::string values = ", the void near " + format_number(steps.space, 4) +
                                " and the inside near " + format_number(steps.inside, 4);
     const auto between = [](double a, double b) {
@@ -223,7 +226,7 @@ bool are_of_layers(const Segmentation& segmentation) {
   return std::all_of(peaks.begin(), peaks.end(), [&](double peak) {
     return std::any_of(segmentation.steps.begin(), segmentation.steps.end(),
                        [&](const EdgeSteps& steps) {
-                         if (steps.fraction < most) return false;
+                         if (steps.fraction < most || steps.thickness == 0.0) return false;
                          const double nearest =
                              std::min({std::abs(peak - steps.space), std::abs(peak - steps.layer),
                                        std::abs(peak - steps.inside)});

@@ -132,6 +132,12 @@ std::size_t quantile_of(const std::vector<std::uint64_t>& counts, double fractio
 double level_below(const std::vector<std::uint64_t>& counts, const std::vector<GreyPeak>& peaks,
                    std::size_t upper);
 
+/// Returns the grey value around which a histogram rises again between the two phases beside a
+/// level, as of a film of water around grains: blur alone has the fewest counts in the middle.
+/// Empty: it does not rise. `contrast`: between the phases.
+std::optional<double> film_between(const std::vector<std::uint64_t>& counts, double level,
+                                   double contrast);
+
 /// Returns twice the distance of a level to the nearer one of the fullest values on its two sides;
 /// 0 if a side is empty.
 double contrast_at(const std::vector<std::uint64_t>& counts, double level);
