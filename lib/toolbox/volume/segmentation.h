@@ -79,9 +79,6 @@ struct CutOffGreys {
   /// brighter side, that has the largest; 0: not cut off there.
   double least = 0.0;
   double largest = 0.0;
-  /// Fraction of all voxels at either end, if their edges end at once, but nothing tells noise: a
-  /// mask that was smoothed or resampled looks so too; else 0.
-  double at_ends = 0.0;
   bool has_edges = false;  ///< middle values lie at edges, not in bodies as in labels
 };
 

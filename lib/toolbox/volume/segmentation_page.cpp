@@ -280,36 +280,27 @@ void add_left_out(const Segmentation& segmentation, std::vector<Sentence>& doubt
 /// Adds a doubt on grey values that were cut off at the least, the largest or both.
 void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
   const CutOffGreys& cut_off = segmentation.cut_off;
-  const Sentence what_to_do =
-      "Save the scan again with a wider range of grey values. If you know those of "
+  std::string found;
+  for (const bool is_least : {true, false}) {
+    const double fraction = is_least ? cut_off.least : cut_off.largest;
+  if (found.empty()) return;
+  const bool are_both = cut_off.least > 0.0 && cut_off.largest > 0.0;
+  const bool is_large = (cut_off.least > 0.0) == segmentation.is_dark;
+  doubts.push_back(
+      found +
+      ": the values beyond were probably cut off when the scan was saved. Then "
+      "grains come out too " +
+      (are_both   ? "small or too large"
+       : is_large ? "large"
+                  : "small") +
+      ". Save the scan again with a wider range of grey values. If you know those of "
       "grains and space before the cut, give " +
-      mention("threshold") + " half way between them.";
-  if (cut_off.at_ends > 0.0) {
-    doubts.push_back(format_percent(cut_off.at_ends) +
-                     " of the voxels have the least or the largest grey value, and the edges "
-                     "between them end at once. This is right for a mask that was smoothed or "
-                     "resampled. Of a scan the values beyond were cut off when it was saved, and "
-                     "grains come out too small or too large. " +
-                     what_to_do);
-    return;
-  }
-  const auto fraction_text = [&](double fraction, bool is_least) {
-    return format_percent(fraction) + " of the voxels of the " +
-           (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
-           " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
-  };
-  if (cut_off.least > 0.0 && cut_off.largest > 0.0) {
-    doubts.push_back(fraction_text(cut_off.least, true) + ", and " +
-                     fraction_text(cut_off.largest, false) +
-                     ": the values beyond both were probably cut off when the scan was saved. Then "
-                     "grains come out too small or too large. " +
-                     what_to_do);
-  } else if (cut_off.least + cut_off.largest > 0.0) {
-    const bool is_least = cut_off.least > 0.0;
-    doubts.push_back(fraction_text(cut_off.least + cut_off.largest, is_least) +
-                     ": the values beyond it were probably cut off when the scan was saved. Then "
-                     "grains come out too " +
-                     (is_least == segmentation.is_dark ? "large" : "small") + ". " + what_to_do);
+      mention("threshold") +
+      " half way between them. It is right for a mask that was smoothed or resampled.");
+    if (fraction == 0.0) continue;
+    found += (found.empty() ? "" : ", and ") + format_percent(fraction) + " of the voxels of the " +
+             (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
+             " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
   }
 }
 

@@ -120,8 +120,8 @@ std::vector<std::uint64_t> counts_of_all(const std::vector<std::uint16_t>& grey,
                                          const std::vector<std::uint8_t>& outside);
 
 /// Tells whether a window of grey values cut off those of void or material: many voxels have the
-/// least or the largest value, and there is noise beside them on one side only or in the other
-/// phase, or the edges between the phases end at once. `grey`: not smoothed; `outside`: as above.
+/// least or the largest value, and there is noise beside them on one side only, or the edges
+/// between the phases end there at once. `grey`: not smoothed; `outside`: as above.
 CutOffGreys cut_off_greys(const std::vector<std::uint16_t>& grey,
                           const std::vector<std::uint8_t>& outside, const VoxelCounts& sizes);
 
