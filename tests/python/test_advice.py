@@ -242,9 +242,9 @@ ALL = [
            "extract two.stl out \\1", "2 bodies: 2 written"),
     # Segmentation
     Advice("dark", npy("v.npy", lambda: grey(np.minimum(balls(TWO), 1), (160, 60))), "segment v.npy l.nrrd",
-           "Give (--dark)", "segment v.npy l.nrrd \\1", "2 grains"),
+           "give (--dark)", "segment v.npy l.nrrd \\1", "2 grains"),
     Advice("not dark", npy("v.npy", lambda: grey(np.minimum(balls(TWO), 1))), "segment v.npy l.nrrd --dark",
-           "Leave --dark out", "segment v.npy l.nrrd", "2 grains"),
+           "leave --dark out", "segment v.npy l.nrrd", "2 grains"),
     Advice("phases", npy("v.npy", lambda: grey(balls([(8, 12, 12, 6), (32, 12, 12, 6), (20, 12, 12, 5)], labels=(1, 1, 2)), (60, 110, 235))),
            "segment v.npy l.nrrd", "3 peaks.*give their number, such as (--phases 1)", "segment v.npy l.nrrd \\1", "1 grain,", gone="x^"),
     Advice("too many phases", npy("v.npy", lambda: grey(np.minimum(balls(TWO), 1))), "segment v.npy l.nrrd --phases 3",

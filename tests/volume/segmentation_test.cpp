@@ -815,7 +815,7 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   EXPECT_EQ(looks(found), "");
   make({200, 90, 30});
   write_made();
-  EXPECT_TRUE(holds(looks(segmented()), "If they are the holes, give --dark"));
+  EXPECT_TRUE(holds(looks(segmented()), "If the grains are darker than the rest, give --dark"));
   EXPECT_EQ(segmented(options).grains.size(), 8U);
   options.phases = 1;
   EXPECT_EQ(segmented(options).grains.size(), 2U);
@@ -837,7 +837,7 @@ TEST_F(SegmentationOfTwoMinerals, DarkGrainsAreFoundAsTheAdviceSays) {
   make({40, 110, 110});
   write_made();
   options.phases.reset();
-  EXPECT_TRUE(holds(looks(segmented(options)), "Leave --dark out"));
+  EXPECT_TRUE(holds(looks(segmented(options)), "leave --dark out"));
 }
 
 TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {

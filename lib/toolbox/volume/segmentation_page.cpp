@@ -310,26 +310,23 @@ std::string peaks_text(const std::vector<double>& peaks) {
   for (const double peak : peaks) values.push_back(format_number(peak, 4));
   return std::to_string(peaks.size()) + " peaks, at " + enumerated(values, " and ");
 }
+  const std::string grains = is_dark ? "brighter" : "darker";
+  const Sentence other_side = is_dark ? "leave " + mention("dark", "true") + " out."
+                                      : "give " + mention("dark", "true") + ".";
 
-/// Adds a doubt on material that fills the volume around holes.
-void add_inverted(const Segmentation& segmentation, std::vector<Sentence>& doubts) {
-  const std::string holes = "The material fills the volume, with holes of " +
-                            format_percent(share_of(segmentation.filled, segmentation.material)) +
-                            " of it";
+/// Adds a doubt on material that is not the grains, but what is between them.
+void add_inverted(const Segmentation& segmentation, const std::string& why,
+                  std::vector<Sentence>& doubts) {
   const bool is_dark = segmentation.is_dark;
   // A resin with bubbles lies between the grains' grey value and that of the bubbles.
-  if (segmentation.peaks.size() > 2 && !segmentation.is_chosen) {
-    doubts.push_back(holes + ", and the grey values have " + peaks_text(segmentation.peaks) +
-                     ". If only the " + (is_dark ? "darkest" : "brightest") +
-                     " are grains, give their number, such as " + mention("phases", "1") +
-                     ". If they are the holes, " +
-                     (is_dark ? "leave " + mention("dark", "true") + " out."
-                              : "give " + mention("dark", "true") + "."));
-    return;
-  }
-  doubts.push_back(holes + ": the grains seem to be " +
-                   (is_dark ? "brighter than the rest. Leave " + mention("dark", "true") + " out."
-                            : "darker than the rest. Give " + mention("dark", "true") + "."));
+  const bool has_phases = segmentation.peaks.size() > 2 && !segmentation.is_chosen;
+  doubts.push_back(why +
+                   (has_phases
+                        ? ". The grey values have " + peaks_text(segmentation.peaks) +
+                              ". If only the " + (is_dark ? "darkest" : "brightest") +
+                              " are grains, give their number, such as " + mention("phases", "1")
+                        : Sentence("")) +
+                   ". If the grains are " + grains + " than the rest, " + other_side);
 }
 
 /// Adds a doubt on where grains end.
@@ -416,16 +413,20 @@ std::vector<Sentence> doubts_of(const Segmentation& segmentation) {
   const bool is_inverted =
       segmentation.filled > 0 &&
       share_of(segmentation.material, segmentation.voxels - segmentation.not_scanned) > full;
-  if (is_inverted) add_inverted(segmentation, doubts);
   // The space between loose grains has -.3 to -.7, dense grains in contact +.1 and more.
   constexpr double least_fraction = -0.2;
   const bool is_space = !is_inverted && segmentation.island_fraction < least_fraction;
-  if (is_space) {
-    doubts.push_back(
-        "In slices the material has more holes than islands, as the space between grains has. If "
-        "the grains are " +
-        (segmentation.is_dark ? "brighter than the rest, leave " + mention("dark", "true") + " out."
-                              : "darker than the rest, give " + mention("dark", "true") + "."));
+  if (is_inverted) {
+    add_inverted(segmentation,
+                 "The material fills the volume, with holes of " +
+                     format_percent(share_of(segmentation.filled, segmentation.material)) +
+                     " of it",
+                 doubts);
+  } else if (is_space) {
+    add_inverted(segmentation,
+                 "In slices the material has more holes than islands, as the space between grains "
+                 "has",
+                 doubts);
   }
   add_peaks(segmentation, is_inverted, doubts);
   if (!is_inverted) add_biases(segmentation, doubts);
