@@ -254,15 +254,6 @@ GreyCounts counts_of(const std::vector<std::uint16_t>& grey,
   return counts;
 }
 
-/// Returns whether noise is more than a few percent of the contrast.
-bool is_noisy(const std::vector<std::uint16_t>& grey, const std::vector<std::uint64_t>& counts,
-              const VoxelCounts& sizes) {
-  if (values_in(counts) < 2) return true;
-  constexpr double little = 0.04;
-  return static_cast<double>(noise_of(grey, sizes, counts.size())) >
-         little * contrast_at(counts, level_between_peaks(counts));
-}
-
 /// Smooths on if the grey values have one peak, because of noise, until they have two. If they
 /// never do, they stay as they are.
 void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
@@ -279,9 +270,8 @@ void smooth_until_peaks(std::vector<std::uint16_t>& grey, GreyCounts& counts,
       result.medians = medians;
       return;
     }
-    // Thin grains, and those with a large pore, have no peak inside without noise either.
-    if (medians == 1 && !is_noisy(grey, counts.all, sizes) &&
-        peaks_of(counts.all, counts.has_noise).size() == 2) {
+    // Thin grains, and those with a large pore, have no peak inside.
+    if (medians == 1 && peaks_of(counts.all, counts.has_noise).size() == 2) {
       counts.inside = counts.all;
       return;
     }
@@ -359,16 +349,15 @@ bool leave_out_wall(const std::vector<std::uint8_t>& mask, const VolumeGeometry&
 /// Parts of a volume, 4 along each axis.
 using GreyParts = std::array<std::vector<std::uint16_t>, 64>;
 
-/// Returns the grey values in the parts, but where `is_left_out(voxel)`.
-template <class IsLeftOut>
+/// Returns the grey values in the parts, without those of voxels that are left out.
 GreyParts greys_in_parts(const std::vector<std::uint16_t>& grey, const VoxelCounts& sizes,
-                         const IsLeftOut& is_left_out) {
+                         const std::vector<std::uint8_t>& left_out) {
   constexpr std::size_t along = 4;
   GreyParts parts;
   const VoxelGrid grid(sizes);
   constexpr std::size_t enough = 4'000'000;  // voxels, for memory
   for (std::size_t k = 0; k < grey.size(); k += 1 + grey.size() / enough) {
-    if (is_left_out(k)) continue;
+    if (is_marked(left_out, k)) continue;
     const std::array<std::size_t, 3> place = grid.place(k);
     const auto at = [&](std::size_t axis) { return place[axis] * along / grid.sizes[axis]; };
     parts[(at(2) * along + at(1)) * along + at(0)].push_back(grey[k]);
@@ -399,20 +388,12 @@ std::pair<double, double> usual_range(std::vector<double> values) {
   return {values[few], values[values.size() - 1 - few]};
 }
 
-/// Notes the grey values of the void in parts of the volume if they differ by much of the contrast.
-/// Or if both ends of the grey values do, one by more: then beam hardening darkens grains below the
-/// threshold. Several minerals do not change the void, nor do parts
-  const bool has_layer =
-      std::any_of(result.steps.begin(), result.steps.end(),
-                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
-  if (film && !has_layer) {
-    result.steps.push_back({phases.space, *film, phases.materials.front(), 0.0, 1.0});
-  }
-/// without grains.
-void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
-                const std::vector<std::uint8_t>& left_out, const VoxelCounts& sizes,
-                const std::vector<GreyPeak>& peaks, Segmentation& result) {
-  constexpr double much = 0.3;
+/// Notes the grey values of the void in parts of the volume if both ends of the grey values differ
+/// among the parts, one by much of the contrast, as by drift or beam hardening. Several minerals do
+/// not change the void, nor do parts without grains.
+void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& left_out,
+                const VoxelCounts& sizes, const std::vector<GreyPeak>& peaks,
+                Segmentation& result) {
   constexpr double much_of_one = 0.5;
   constexpr double much_of_other = 0.15;
   const double level = (result.threshold - values.base) / values.step;
@@ -421,25 +402,13 @@ void note_space(const ShortGrey& values, const std::vector<std::uint8_t>& mask,
   });
   if (upper == peaks.begin() || upper == peaks.end()) return;
   const auto contrast = static_cast<double>(upper->value - (upper - 1)->value);
-  const auto extent = [&](const std::vector<double>& greys) {
-    const auto [least, most] = usual_range(greys);
-    return (most - least) / contrast;
-  };
-  const auto is_outside = [&](std::size_t k) { return is_marked(left_out, k); };
-  GreyParts parts = greys_in_parts(values.grey, sizes,
-                                   [&](std::size_t k) { return mask[k] != 0 || is_outside(k); });
-  std::vector<double> space = quantiles_of(parts, 0.5);
-  bool is_noted = extent(space) > much;
-  if (!is_noted) {
-    parts = greys_in_parts(values.grey, sizes, is_outside);
-    const std::vector<double> low = quantiles_of(parts, 0.1);
-    const std::vector<double> high = quantiles_of(parts, 0.9);
-    is_noted = std::max(extent(low), extent(high)) > much_of_one &&
-               std::min(extent(low), extent(high)) > much_of_other;
-    if (is_noted) space = result.is_dark ? high : low;
-  }
-  if (!is_noted) return;
-  const auto [darkest, brightest] = usual_range(space);
+  GreyParts parts = greys_in_parts(values.grey, sizes, left_out);
+  const std::pair<double, double> low = usual_range(quantiles_of(parts, 0.1));
+  const std::pair<double, double> high = usual_range(quantiles_of(parts, 0.9));
+  const auto [less, more] =
+      std::minmax({(low.second - low.first) / contrast, (high.second - high.first) / contrast});
+  if (more <= much_of_one || less <= much_of_other) return;
+  const auto [darkest, brightest] = result.is_dark ? high : low;
   result.darkest_space = values.base + values.step * darkest;
   result.brightest_space = values.base + values.step * brightest;
 }
@@ -454,6 +423,12 @@ void note_layers(EdgeLayers layers, const std::optional<double>& film, const Pha
     return;
   }
   result.steps = std::move(layers.steps);
+  const bool has_layer =
+      std::any_of(result.steps.begin(), result.steps.end(),
+                  [](const EdgeSteps& steps) { return steps.goes_on() && steps.are_told(); });
+  if (film && !has_layer) {
+    result.steps.push_back({phases.space, *film, phases.materials.front(), 0.0, 1.0});
+  }
   for (EdgeSteps& steps : result.steps) {
     for (double* value : {&steps.space, &steps.layer, &steps.inside}) {
       *value = values.base + values.step * *value;
@@ -501,7 +476,7 @@ std::vector<std::uint8_t> material_of(LabelVolume& scan, const GreyRange& range,
     counts = counts_of(grey, left_out, sizes, has_noise);
     find_material();
   }
-  note_space(values, mask, left_out, sizes, peaks, result);
+  note_space(values, left_out, sizes, peaks, result);
   for (const GreyPeak& peak : peaks) {
     result.peaks.push_back(base + step * static_cast<double>(peak.value));
   }
