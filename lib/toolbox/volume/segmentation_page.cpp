@@ -190,19 +190,14 @@ bool add_steps(const Segmentation& segmentation, std::vector<Sentence>& doubts) 
     };
     if (steps.goes_on()) {
       goes_on = true;
-      // Another peak is the layer's, and counts as material.
-      const bool is_outer = segmentation.peaks.size() > 2 &&
-                            (segmentation.threshold < steps.layer) != segmentation.is_dark;
       doubts.push_back(
           "Grey values change in two steps from the void to the inside of grains: " + layer +
           values +
           ". It may be a film of water, which is no grain, or the outer part of grains with a coat "
           "or a dense core. " +
-          (is_outer ? "The outlines are at the outer step. If the layer is no grain, segment once "
-                      "more by "
-                    : "The outlines may lie on either step or between them. For grains with the "
-                      "layer, segment once more by " +
-                          between(steps.space, steps.layer) + "; for grains without it, by ") +
+          "The outlines may lie on either step or between them. For grains with the layer, segment "
+          "once more by " +
+          between(steps.space, steps.layer) + "; for grains without it, by " +
           between(steps.layer, steps.inside) + ".");
     } else {
       doubts.push_back("Grains differ more from the void at their surface than inside: " + layer +
@@ -283,6 +278,11 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
   std::string found;
   for (const bool is_least : {true, false}) {
     const double fraction = is_least ? cut_off.least : cut_off.largest;
+    if (fraction == 0.0) continue;
+    found += (found.empty() ? "" : ", and ") + format_percent(fraction) + " of the voxels of the " +
+             (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
+             " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
+  }
   if (found.empty()) return;
   const bool are_both = cut_off.least > 0.0 && cut_off.largest > 0.0;
   const bool is_large = (cut_off.least > 0.0) == segmentation.is_dark;
@@ -297,11 +297,6 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
       "grains and space before the cut, give " +
       mention("threshold") +
       " half way between them. It is right for a mask that was smoothed or resampled.");
-    if (fraction == 0.0) continue;
-    found += (found.empty() ? "" : ", and ") + format_percent(fraction) + " of the voxels of the " +
-             (is_least == segmentation.is_dark ? "grains" : "space between the grains") +
-             " have one value, the " + (is_least ? "least" : "largest") + " of the scan";
-  }
 }
 
 /// The grey values of the peaks, as "3 peaks, at 40, 100 and 190".
@@ -310,14 +305,14 @@ std::string peaks_text(const std::vector<double>& peaks) {
   for (const double peak : peaks) values.push_back(format_number(peak, 4));
   return std::to_string(peaks.size()) + " peaks, at " + enumerated(values, " and ");
 }
-  const std::string grains = is_dark ? "brighter" : "darker";
-  const Sentence other_side = is_dark ? "leave " + mention("dark", "true") + " out."
-                                      : "give " + mention("dark", "true") + ".";
 
 /// Adds a doubt on material that is not the grains, but what is between them.
 void add_inverted(const Segmentation& segmentation, const std::string& why,
                   std::vector<Sentence>& doubts) {
   const bool is_dark = segmentation.is_dark;
+  const std::string grains = is_dark ? "brighter" : "darker";
+  const Sentence other_side = is_dark ? "leave " + mention("dark", "true") + " out."
+                                      : "give " + mention("dark", "true") + ".";
   // A resin with bubbles lies between the grains' grey value and that of the bubbles.
   const bool has_phases = segmentation.peaks.size() > 2 && !segmentation.is_chosen;
   doubts.push_back(why +
