@@ -1288,10 +1288,10 @@ TEST_F(SegmentationOfAFile, DoubtsGreyValuesThatWereCutOff) {
   EXPECT_FALSE(holds(doubts(95.0, 305.0, 10.0, false), "cut off"));
   for (const bool is_dark : {false, true}) {
     const std::string low = doubts(150.0, 500.0, 10.0, is_dark);
-    EXPECT_TRUE(holds(low, "have one value, the least of the scan: "));
+    EXPECT_TRUE(holds(low, "have one value, the least of the scan. "));
     EXPECT_TRUE(holds(low, is_dark ? "come out too large" : "come out too small"));
     const std::string high = doubts(0.0, 250.0, 10.0, is_dark);
-    EXPECT_TRUE(holds(high, "have one value, the largest of the scan: "));
+    EXPECT_TRUE(holds(high, "have one value, the largest of the scan. "));
     EXPECT_TRUE(holds(high, is_dark ? "come out too small" : "come out too large"));
     // Of both ends, with and without noise that reaches into the window.
     const std::string both = doubts(113.0, 287.0, 10.0, is_dark);

@@ -1001,6 +1001,11 @@ TEST_F(TiffVolume, OrdersSlicesWhateverTheirCapitalsAndSaysWhyAFolderIsNoVolume)
   write_slices(
       8, [](int z) { return "s" + std::to_string(z / 2) + (z % 2 == 0 ? ".0" : ".5") + ".tif"; });
   expect_refused("slices", {"more than one series", "s0.5.tif", whole_numbers});
+  // Hexadecimal: the decimal ones among them have no gap.
+  write_slices(20, [](int z) {
+    return std::string("s") + (z < 16 ? "0" : "1") + "0123456789abcdef"[z % 16] + ".tif";
+  });
+  expect_refused("slices", {"more than one series", whole_numbers});
   write_slices(8, [](int z) { return std::to_string(z) + ".jpg"; });
   expect_refused("slices", {"8 .jpg files", "JPEG changes numbers"});
   write_slices(3, [](int z) { return "inner/" + std::to_string(z) + ".tif"; });

@@ -171,9 +171,11 @@ void keep_one_series(const std::string& folder, std::vector<std::string>& paths,
   std::stable_sort(series.begin(), series.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
   const auto name = [](const std::string& path) { return "\"" + slice_name(path) + "\""; };
-  // A preview, a mask of one slice or a logo is one file or two.
+  // A preview, a mask of one slice or a logo is one file or two. Slices of hexadecimal numbers
+  // leave many series of few files.
   constexpr std::size_t most_odd = 2;
-  if (series.size() > 1 && (series[1].size() > most_odd || series[1].size() == series[0].size())) {
+  const std::size_t odd = paths.size() - series[0].size();
+  if (odd > most_odd || odd == series[0].size()) {
     refuse_volume(
         folder, "holds more than one series of slices: " + std::to_string(series[0].size()) +
                     " files like " + name(series[0].front()) + " and " +

@@ -288,15 +288,14 @@ void add_cut_off(const Segmentation& segmentation, std::vector<Sentence>& doubts
   const bool is_large = (cut_off.least > 0.0) == segmentation.is_dark;
   doubts.push_back(
       found +
-      ": the values beyond were probably cut off when the scan was saved. Then "
-      "grains come out too " +
+      ". This is right for a mask that was smoothed or resampled. Of a scan the values "
+      "beyond were cut off when it was saved, and grains come out too " +
       (are_both   ? "small or too large"
        : is_large ? "large"
                   : "small") +
       ". Save the scan again with a wider range of grey values. If you know those of "
       "grains and space before the cut, give " +
-      mention("threshold") +
-      " half way between them. It is right for a mask that was smoothed or resampled.");
+      mention("threshold") + " half way between them.");
 }
 
 /// The grey values of the peaks, as "3 peaks, at 40, 100 and 190".
