@@ -167,7 +167,9 @@ void describe_labels(const DescribeArguments& arguments) {
   std::vector<std::string> lines = {labels->description()};
   lines.insert(lines.end(), labels->notes().begin(), labels->notes().end());
   for (std::string& line : fabric_lines(fabric)) lines.push_back(std::move(line));
-  work.print(labels->warnings(), std::move(lines), arguments.folder,
+  std::vector<Sentence> warnings = labels->warnings();
+  if (scan) warnings.insert(warnings.end(), scan->warnings().begin(), scan->warnings().end());
+  work.print(warnings, std::move(lines), arguments.folder,
              "Look at \"" + in_folder("fabric.html") + "\"");
 }
 

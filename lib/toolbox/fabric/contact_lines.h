@@ -70,9 +70,9 @@ ContactLines contact_lines(LabelVolume& volume, Label background, const Executio
 /// the lines that cross a surface of all directions, half have |n| above sqrt(1/2). The median over
 /// the lines along the first two axes therefore gives s.
 ///
-/// Throws Error: InvalidInput if the volumes have different counts of voxels, if less than 100
-/// lines cross an edge with six voxels of a label and six of void on its sides, or if both sides
-/// have the same grey values; Cancelled, and what the volumes throw.
+/// Throws Error: InvalidInput if the volumes have different counts or known sizes of voxels, if
+/// less than 100 lines cross an edge with six voxels of a label and six of void on its sides, or if
+/// both sides have the same grey values; Cancelled, and what the volumes throw.
 double edge_width(LabelVolume& labels, Label background, LabelVolume& scan,
                   const Execution& execution);
 

@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "toolbox/fabric/contact_lines.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/option.h"
 #include "wscvt/base/sorting.h"
+#include "wscvt/base/text_format.h"
 
 namespace wscvt {
 
@@ -121,19 +124,36 @@ double width_of(const std::vector<Profile>& profiles) {
   return std::max(0.0, of_grazing * upper_median(integrals) * std::sqrt(0.5 * pi));
 }
 
+/// Throws if a scan has voxels of another number, or of another size where both are known.
+void require_same_voxels(const VolumeGeometry& labels, const VolumeGeometry& scan) {
+  const std::string advice = ". Give the scan from which the labels were made";
+  const auto counts = [](const VolumeGeometry& g) {
+    return std::to_string(g.counts[0]) + " x " + std::to_string(g.counts[1]) + " x " +
+           std::to_string(g.counts[2]);
+  };
+  if (scan.counts != labels.counts) {
+    refuse("The labels have " + counts(labels) + " voxels, the scan has " + counts(scan) + advice +
+           ".");
+  }
+  if (!labels.has_size || !scan.has_size || labels.unit != scan.unit) return;
+  const auto size = [](const VolumeGeometry& g) { return Vector3(g.axes.colwise().norm()); };
+  const auto text = [](const Vector3& s) {
+    return format_number(s[0]) + " x " + format_number(s[1]) + " x " + format_number(s[2]);
+  };
+  constexpr double rounding = 1e-3;  // of sizes that a file has with few digits
+  if ((size(scan) - size(labels)).norm() <= rounding * size(labels).norm()) return;
+  refuse("The voxels of the labels are " + text(size(labels)) + " " + labels.unit +
+         ", those of the scan " + text(size(scan)) + advice + ", or the size of both by " +
+         mention("voxel-size") + ".");
+}
+
 }  // namespace
 
 double edge_width(LabelVolume& labels, Label background, LabelVolume& scan,
                   const Execution& execution) {
   const VolumeGeometry& geometry = labels.geometry();
   const VoxelCounts& counts = geometry.counts;
-  const auto text = [](const VoxelCounts& c) {
-    return std::to_string(c[0]) + " x " + std::to_string(c[1]) + " x " + std::to_string(c[2]);
-  };
-  if (scan.geometry().counts != counts) {
-    refuse("The labels have " + text(counts) + " voxels, the scan has " +
-           text(scan.geometry().counts) + ". Give the scan from which the labels were made.");
-  }
+  require_same_voxels(geometry, scan.geometry());
   scan.read_grey_values();
   labels.rewind();
   scan.rewind();
