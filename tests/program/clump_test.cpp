@@ -145,6 +145,14 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   EXPECT_TRUE(holds(scene, "\"density\": 2650.0"));
   ASSERT_EQ(run("clump scans -k 2 -o dense --engine lammps --density 1").exit_code, 3);
   EXPECT_TRUE(holds(content("dense/scene.json"), "\"density\": 1.0"));
+  // A curve of an earlier call is not that of this one, unless it is given; both advices work.
+  const std::string own_sizes = "clump scans -k 2 -o out --size 0.2 --engine lammps";
+  expect_refused("", {{own_sizes, 2, "has a size curve, sizes.csv"}}, {});
+  EXPECT_EQ(run(own_sizes + " --size-curve out/sizes.csv").exit_code, 3);
+  EXPECT_EQ(content("out/sizes.csv"), heading + "0.1,0\r\n0.3,100\r\n");
+  std::filesystem::remove(path("out/sizes.csv"));
+  EXPECT_EQ(run(own_sizes).exit_code, 3);
+  EXPECT_FALSE(exists("out/sizes.csv"));
   // What a person changed stays.
   std::ofstream(path("out/scene.json")) << "{}";
   EXPECT_EQ(run(call).exit_code, 3);

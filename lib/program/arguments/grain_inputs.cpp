@@ -16,6 +16,7 @@
 #include "toolbox/sample/given_sizes.h"
 #include "toolbox/volume/open_volume.h"
 #include "wscvt/base/input_file.h"
+#include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
@@ -33,6 +34,17 @@ void print_bodies(const std::string& path, const MeshBodies& bodies, bool quiet)
   }
 }
 
+std::string sizes_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "sizes.csv").string();
+}
+
+/// Whether the only input is a folder of templates whose size curve is that of the packing. With a
+/// size all grains have it.
+bool has_curve_of_templates(const ScanInputs& arguments, const FrameOptions& frame) {
+  return arguments.inputs.size() == 1 && arguments.sizes.empty() && !(frame.size > 0.0) &&
+         std::filesystem::exists(std::filesystem::path(arguments.inputs.front()) / "templates.csv");
+}
+
 /// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
 /// gives their weights and sizes.
 std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
@@ -47,15 +59,12 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
   const std::filesystem::path in(arguments.inputs.front());
   // run.py reads only commas, decimal points and one heading.
   const auto write_sizes = [&](const std::string& curve, double scale) {
-    write_file((out / "sizes.csv").string(), read_given_sizes(curve).table(scale));
+    write_file(sizes_in(folder.path()), read_given_sizes(curve).table(scale));
   };
   if (arguments.inputs.size() == 1 && std::filesystem::exists(in / "templates.csv")) {
     write_file((out / "templates.csv").string(), file_content((in / "templates.csv").string()));
-    // The curve is of the scans; with a size all grains have it.
-    if (arguments.sizes.empty() && !(frame.size > 0.0)) {
-      write_sizes((in / "sizes.csv").string(), frame.scale);
-    }
   }
+  if (has_curve_of_templates(arguments, frame)) write_sizes(sizes_in(in.string()), frame.scale);
   if (!arguments.sizes.empty()) write_sizes(arguments.sizes, 1.0);
   const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
   return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame,
@@ -68,10 +77,16 @@ void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
   if (arguments.engine.empty()) return;
   require_own_script(folder);
   require_own_table(folder, "sizes.csv", GivenSizes::heading());
-  const auto sizes_in = [](const std::string& place) {
-    return (std::filesystem::path(place) / "sizes.csv").string();
-  };
-  if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) return;
+  if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) {
+    if (!arguments.sizes.empty() || has_curve_of_templates(arguments, frame) ||
+        !std::filesystem::exists(sizes_in(folder))) {
+      return;
+    }
+    refuse(
+        "The folder \"" + folder +
+        "\" has a size curve, sizes.csv, which its packing would get. Give it, or another, with " +
+        mention("size-curve") + ", or remove it for the grains' own sizes.");
+  }
   if (frame.scale == 1.0 && !(frame.size > 0.0)) return;
   refuse("The folder \"" + folder +
          "\" has the grains, whose size curve would be scaled too. Give another folder with "
