@@ -313,13 +313,15 @@ void WallRemesher::find_edges(int nodes, const std::vector<double>& least) {
 void WallRemesher::run(const std::vector<double>& least, int nodes, const Execution& execution) {
   const double longest = *std::max_element(edges_.begin(), edges_.end());
   int level = 0;
-  for (double most = *std::min_element(least.begin(), least.end()); most < longest; most *= 1.6) {
+  double most = *std::min_element(least.begin(), least.end());
+  while (most < longest) {
     execution.report(0.3 * level / (level + 3.0), "Coarsening the walls");
     ++level;
     collapse_short(most);
     flip_all(false);
     mesh_.compact();
     relax(1, execution);
+    most *= 1.6;
   }
   // Walls belong to two grains, so that numbers of nodes settle more slowly.
   const int rounds = nodes > 0 ? 6 : 3;
