@@ -186,6 +186,10 @@ TEST_F(GrainTableTest, LeavesOutNoColumnOfADescriptorInSilence) {
                     "of 1"));
   EXPECT_TRUE(holds(refusal("grain,volume\na,12 mm\n"), "\"volume [mm]\""));
   EXPECT_TRUE(holds(refusal("grain,volume,sphericity_wadell\na,1,1.7\n"), "at most 1"));
+  // Names have no unit.
+  const GrainTable unnamed = read("width [mm],volume\n1.5,1\n2.5,2\n");
+  EXPECT_EQ(unnamed.grains, (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(unnamed.columns[0].name, "width");
   // What begins with a text is left out, and told if numbers follow.
   const GrainTable table = read(
       "grain,volume,roundness,form,id,empty\na,1,-,\"0,5\",A1,\nb,2,0.5,\"0,4\",NA,\n"

@@ -173,8 +173,11 @@ void TableReader::read_heading(const std::vector<std::string>& fields) {
     const bool is_text = column.name == "file" || column.name == "status" || column.name == "error";
     roles_.push_back(is_text ? Role::Words : Role::Undecided);
   }
-  const std::string& first = fields_.front().name;
-  if (!name_field_ && !is_size(first) && !is_fraction(first)) name_field_ = 0;
+  // A first column without a name that is known has the grains' names, which have no unit.
+  const GrainColumn& first = fields_.front();
+  if (!name_field_ && first.unit.empty() && !is_size(first.name) && !is_fraction(first.name)) {
+    name_field_ = 0;
+  }
   if (name_field_) roles_[*name_field_] = Role::Words;
   numbers_.resize(fields_.size());
   marks_.resize(fields_.size());
