@@ -402,8 +402,7 @@ void require_scans_kept(const GrainJob& job, const GrainSource& grains,
   }
 }
 
-JobEnd run_job(const GrainJob& asked, GrainSource& grains, const JobHost& host) {
-  GrainJob job = asked;
+JobEnd run_job(GrainJob job, GrainSource& grains, const JobHost& host) {
   for (JobTable& table : job.tables) table.header = with_unit(table.header, grains.unit());
   const JobFolder whole(job.folder, job.ending, job.shard);
   const std::vector<JobFolder> folders = folders_of(job);

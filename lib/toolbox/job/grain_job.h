@@ -80,6 +80,6 @@ struct MadeSample {
 /// Creates the folders and runs the job. Before the work, throws Error(InvalidInput) if files would
 /// replace each other or a scan, or if the folder is of a kept job with other options or grains.
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.
-JobEnd run_job(const GrainJob& job, GrainSource& grains, const JobHost& host);
+JobEnd run_job(GrainJob job, GrainSource& grains, const JobHost& host);
 
 }  // namespace wscvt
