@@ -525,7 +525,7 @@ TEST_F(FabricOfAFile, RefusesWhatHasNoContacts) {
   write_labels(MadeVolume({64, 30, 29}), "other.nrrd");
   EXPECT_TRUE(holds(refused("chain.nrrd", "other.nrrd"), "64 x 30 x 29"));
   write_labels(chain(), "wide.nrrd", "1 1 1.01");
-  EXPECT_TRUE(holds(refused("chain.nrrd", "wide.nrrd"), "those of the scan 1 x 1 x 1.01"));
+  EXPECT_TRUE(holds(refused("chain.nrrd", "wide.nrrd"), "those of the scan 1 x 1 x 1.01 mm. "));
   write_labels(MadeVolume({64, 30, 30}), "flat.nrrd");
   EXPECT_TRUE(holds(refused("chain.nrrd", "flat.nrrd"), "do not differ"));
   one.fill_ball(9, {2, 2, 4}, 1.2);

@@ -137,14 +137,14 @@ void require_same_voxels(const VolumeGeometry& labels, const VolumeGeometry& sca
   }
   if (!labels.has_size || !scan.has_size || labels.unit != scan.unit) return;
   const auto size = [](const VolumeGeometry& g) { return Vector3(g.axes.colwise().norm()); };
-  const auto text = [](const Vector3& s) {
-    return format_number(s[0]) + " x " + format_number(s[1]) + " x " + format_number(s[2]);
+  const auto text = [&](const Vector3& s) {
+    return format_number(s[0]) + " x " + format_number(s[1]) + " x " + format_number(s[2]) +
+           (labels.unit.empty() ? "" : " ") + labels.unit;
   };
   constexpr double rounding = 1e-3;  // of sizes that a file has with few digits
   if ((size(scan) - size(labels)).norm() <= rounding * size(labels).norm()) return;
-  refuse("The voxels of the labels are " + text(size(labels)) + " " + labels.unit +
-         ", those of the scan " + text(size(scan)) + advice + ", or the size of both by " +
-         mention("voxel-size") + ".");
+  refuse("The voxels of the labels are " + text(size(labels)) + ", those of the scan " +
+         text(size(scan)) + advice + ", or the size of both by " + mention("voxel-size") + ".");
 }
 
 }  // namespace
