@@ -707,6 +707,13 @@ TEST_F(Job, RefusesFilesThatWouldReplaceEachOther) {
   both.add(std::make_unique<MeshGrains>(part));
   EXPECT_THROW(run_job(job, both, {1}), Error);
   EXPECT_EQ(content("scan_1.obj"), "another scan");
+  // By a link to it in the folder.
+  fs::create_directory(folder_ / "out");
+  fs::create_symlink(part, folder_ / "out" / "scan.urdf");
+  job = number_job("out");
+  job.ending = "urdf";
+  EXPECT_ERROR(run_job(job, both, {1}), InvalidInput);
+  EXPECT_EQ(content("scan_1.obj"), "another scan");
 }
 
 TEST_F(Job, RequiresThatScansAreKeptWhereverTheyLie) {

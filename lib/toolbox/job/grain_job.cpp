@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -62,7 +63,11 @@ std::vector<std::string> files_of(const GrainJob& job, const JobFolder& folder,
 void check_files(const JobFolder& folder, const GrainJob& job,
                  const std::vector<std::string>& grains) {
   std::map<std::string, const std::string*> made;
-  const Scans scans(job.beside ? grains : std::vector<std::string>());
+  std::optional<Scans> scans;
+  const auto is_scan = [&](const std::string& file) {
+    if (!scans) scans.emplace(grains);
+    return scans->has(file);
+  };
   for (const std::string& grain : grains) {
     const auto [other, is_new] = made.emplace(folder.file_of(grain), &grain);
     if (!is_new) {
@@ -70,13 +75,18 @@ void check_files(const JobFolder& folder, const GrainJob& job,
              other->first + "\". Use two batches, or rename one of them.");
     }
     for (const std::string& file : files_of(job, folder, grain)) {
-      const bool is_scan =
-          same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string());
-      if (is_scan) refuse_replacing(grain, "");
+      if (same_file(file, grain) || same_file(file, fs::path(grain).parent_path().string())) {
+        refuse_replacing(grain, "");
+      }
+      // The scan of another grain has another name, so that only a link leads to it.
+      std::error_code missing;
+      if (fs::is_symlink(file, missing) && is_scan(file)) {
+        refuse_replacing(grain, " \"" + file + "\"");
+      }
     }
     if (!job.beside) continue;
     for (const std::string& file : job.beside(other->first)) {
-      if (scans.has(file)) refuse_replacing(grain, " \"" + file + "\"");
+      if (is_scan(file)) refuse_replacing(grain, " \"" + file + "\"");
     }
   }
 }
