@@ -152,10 +152,10 @@ Fragments fragment_grain(IndexedMesh scan, const FragmentOptions& options,
   result.moved_pieces = moved.pieces;
   result.moved_percent = 100.0 * moved.volume / shape.volume;
   append_repair_warnings(checked.report, "divided", result.warnings);
-  for (const Vector3& point : options.near) {
-    const double away =
-        MeshDistance(checked.mesh, execution).signed_distances({point}, execution)[0] /
-        equivalent_radius(shape.volume);
+  if (options.near.empty()) return result;
+  const MeshDistance surface(checked.mesh, execution);
+  for (const double distance : surface.signed_distances(options.near, execution)) {
+    const double away = distance / equivalent_radius(shape.volume);
     constexpr double far = 3.0;
     if (!(away > far)) continue;
     result.warnings.push_back(
