@@ -181,6 +181,11 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   // All lengths are scaled, and --size is the size of all grains.
   ASSERT_EQ(run("clump scans -k 2 -q -o large --engine yade --scale 1000").exit_code, 0);
   EXPECT_EQ(content("large/sizes.csv"), heading + "1000,0\r\n2000,100\r\n");
+  // Other grains do not get these weights and sizes.
+  const std::string other = "clump scans/a.ply -k 2 -q -o large --engine yade";
+  expect_refused("", {{other, 2, "has weights of templates"}}, {});
+  std::filesystem::remove(path("large/templates.csv"));
+  expect_refused("", {{other, 2, "has a size curve"}}, {});
   ASSERT_EQ(run("clump scans -k 2 -q -o equal --engine yade --size 3").exit_code, 0);
   EXPECT_FALSE(exists("equal/sizes.csv"));
   expect_refused("clump scans -o new",

@@ -38,11 +38,19 @@ std::string sizes_in(const std::string& folder) {
   return (std::filesystem::path(folder) / "sizes.csv").string();
 }
 
-/// Whether the only input is a folder of templates whose size curve is that of the packing. With a
-/// size all grains have it.
+std::string weights_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "templates.csv").string();
+}
+
+/// Whether the only input is a folder of templates.
+bool are_templates(const ScanInputs& arguments) {
+  return arguments.inputs.size() == 1 &&
+         std::filesystem::exists(weights_in(arguments.inputs.front()));
+}
+
+/// Whether the size curve of templates is that of the packing. With a size all grains have it.
 bool has_curve_of_templates(const ScanInputs& arguments, const FrameOptions& frame) {
-  return arguments.inputs.size() == 1 && arguments.sizes.empty() && !(frame.size > 0.0) &&
-         std::filesystem::exists(std::filesystem::path(arguments.inputs.front()) / "templates.csv");
+  return are_templates(arguments) && arguments.sizes.empty() && !(frame.size > 0.0);
 }
 
 /// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
@@ -55,28 +63,34 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
   for (std::size_t k = 0; k < grains.size(); ++k) {
     list.push_back({grains.name(k), folder.name_of(grains.name(k))});
   }
-  const std::filesystem::path out(folder.path());
-  const std::filesystem::path in(arguments.inputs.front());
+  const std::string& in = arguments.inputs.front();
   // run.py reads only commas, decimal points and one heading.
   const auto write_sizes = [&](const std::string& curve, double scale) {
     write_file(sizes_in(folder.path()), read_given_sizes(curve).table(scale));
   };
-  if (arguments.inputs.size() == 1 && std::filesystem::exists(in / "templates.csv")) {
-    write_file((out / "templates.csv").string(), file_content((in / "templates.csv").string()));
+  if (are_templates(arguments)) {
+    write_file(weights_in(folder.path()), file_content(weights_in(in)));
   }
-  if (has_curve_of_templates(arguments, frame)) write_sizes(sizes_in(in.string()), frame.scale);
+  if (has_curve_of_templates(arguments, frame)) write_sizes(sizes_in(in), frame.scale);
   if (!arguments.sizes.empty()) write_sizes(arguments.sizes, 1.0);
   const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
   return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame,
                              is_given ? density : engine_density);
 }
 
-/// Throws if what an engine needs would replace files of a person.
+/// Throws if what an engine needs would replace files of a person, or if the packing would get the
+/// weights or sizes of an earlier call.
 void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
                          const FrameOptions& frame) {
   if (arguments.engine.empty()) return;
   require_own_script(folder);
   require_own_table(folder, "sizes.csv", GivenSizes::heading());
+  if (!are_templates(arguments) && std::filesystem::exists(weights_in(folder))) {
+    refuse("The folder \"" + folder +
+           "\" has weights of templates, templates.csv, which its packing would get. Remove them, "
+           "or give another folder with " +
+           mention("output") + ".");
+  }
   if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) {
     if (!arguments.sizes.empty() || has_curve_of_templates(arguments, frame) ||
         !std::filesystem::exists(sizes_in(folder))) {
@@ -89,8 +103,8 @@ void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
   }
   if (frame.scale == 1.0 && !(frame.size > 0.0)) return;
   refuse("The folder \"" + folder +
-         "\" has the grains, whose size curve would be scaled too. Give another folder with "
-         "--output.");
+         "\" has the grains, whose size curve would be scaled too. Give another folder with " +
+         mention("output") + ".");
 }
 
 }  // namespace
