@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <string_view>
+#include <set>
 #include <utility>
 
 #include "toolbox/volume/header_file.h"
@@ -94,10 +94,12 @@ bool is_left_handed(const std::string& space) {
 
 /// Fields that do not affect the position or type of voxels.
 bool is_passed_over(const std::string& name) {
-  constexpr std::string_view names =
-      "|space dimension|measurement frame|content|number|thicknesses|centers|centerings|labels|min"
-      "|max|block size|blocksize|old min|oldmin|old max|oldmax|sample units|sampleunits|";
-  return names.find("|" + name + "|") != std::string_view::npos;
+  static const std::set<std::string> names = {
+      "space dimension", "measurement frame", "content",    "number", "thicknesses",
+      "centers",         "centerings",        "labels",     "min",    "max",
+      "block size",      "blocksize",         "old min",    "oldmin", "old max",
+      "oldmax",          "sample units",      "sampleunits"};
+  return names.count(name) > 0;
 }
 
 void read_field(const std::string& name, const std::string& value, const HeaderFile& file,

@@ -75,7 +75,8 @@ void add_polygons(const VtkPolygons& polygons, bool strips, std::size_t first,
 
 /// Adds the triangles of the surface cells of an unstructured grid, as add_polygons() does: of
 /// triangles, quadrilaterals, polygons and strips, of those of higher order by their corners.
-/// `types`: VTK's number of each cell's type. Leaves out vertices, lines and bodies.
+/// `types`: VTK's number of each cell's type. Leaves out vertices, lines and bodies. Throws as
+/// add_polygons(), and for another number of types than of cells.
 void add_surface_cells(const VtkPolygons& grid, const std::vector<std::int64_t>& types,
                        std::size_t first, const ByteReader& reader, IndexedMesh& mesh,
                        std::vector<std::size_t>& cells);
