@@ -110,6 +110,26 @@ TEST(RockableShape, HoldsTheBodyByItsPublishedForm) {
   EXPECT_LT((shape.extent - Vector3(1.5, 1.0, 0.5)).norm(), 0.01 * shape.radius);
 }
 
+TEST(RockableShape, OfSeveralPartsKeepsThePlanesOfEachOfThem) {
+  const Vector3 middle(3.0, 0.5, -0.25);
+  IndexedMesh both = test::box(3, 2, 1);
+  const IndexedMesh other = test::moved(test::box(1, 2, 3), 1.0, middle);
+  both.points.insert(both.points.end(), other.points.begin(), other.points.end());
+  for (Triangle t : other.triangles) both.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  const MassProperties mass = mass_properties(describe_shape(test::box(3, 2, 1), Execution(1)));
+  const ReadShape shape = read_shape(rockable_shape("folder/two plain parts.shp", both, mass).text);
+  EXPECT_EQ(shape.name, "two_plain_parts");
+  EXPECT_EQ(shape.faces.triangles, both.triangles);
+  ASSERT_EQ(shape.vertices.size(), 16U);
+  EXPECT_EQ(std::set(shape.edges.begin(), shape.edges.end()).size(), 36U);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const Vector3 at = shape.vertices[i] - (i < 8 ? Vector3::Zero() : middle);
+    const Vector3 faces = at.cwiseAbs() + Vector3::Constant(shape.radius);
+    const Vector3 planes = i < 8 ? Vector3(1.5, 1.0, 0.5) : Vector3(0.5, 1.0, 1.5);
+    EXPECT_LT((faces - planes).norm(), 0.01 * shape.radius);
+  }
+}
+
 /// Rounding a box takes (4 - pi) r^2 / 4 per length of its edges, but for the corners. At a place u
 /// from the drawn-in edge a face is sqrt(r^2 + u^2) - r from the cylinder about it, at most
 /// (sqrt(3) - 1) r in a corner.

@@ -196,7 +196,13 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
                   {"--engine yade --size-curve scans/a.ply", 2, "a.ply"},
                   {"--size-curve curve.csv", 2, "Give --engine"}},
                  {"new"});
-  expect_refused("convex scans -o new", {{"--engine yade", 2, "Give -k 1"}}, {"new"});
+  ASSERT_EQ(run("convex scans -k 2 -n 60 -q -o rounded --engine rockable").exit_code, 0);
+  EXPECT_TRUE(holds(content("rounded/scene.json"), "\"file\": \"a.shp\""));
+  EXPECT_TRUE(holds(content("rounded/a.shp"), "preCompDone y"));
+  expect_refused("convex scans -o new",
+                 {{"--engine yade", 2, "Give -k 1"},
+                  {"--engine rockable --format obj", 2, "Leave out --format"}},
+                 {"new"});
 }
 
 TEST_F(ClumpProgram, WrongCallsAreRefused) {

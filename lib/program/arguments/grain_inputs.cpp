@@ -132,8 +132,7 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
   app.add_option("--engine", arguments.engine,
                  "Make a folder of the " + files +
                      " that this engine packs: " + engine_names(shapes) +
-                     ". Its run.py starts the engine; scene.json has the number of grains, the "
-                     "container and the materials")
+                     ". Its run.py starts the engine; scene.json has what you may change")
       ->type_name("NAME");
   app.add_option(
          "--size-curve", arguments.sizes,
@@ -147,16 +146,17 @@ void tell_density_of_packing(CLI::Option& density) {
   density.description(density.get_description() + ", with --engine " + typed_text(engine_density));
 }
 
-void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
-                         const std::string& format, FrameOptions& frame) {
+void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes, std::string& format,
+                         FrameOptions& frame) {
   if (arguments.engine.empty()) {
     if (!arguments.sizes.empty()) refuse("--size-curve is for a packing. Give --engine too.");
     return;
   }
-  check_engine(arguments.engine, shapes);
-  if (format != engine_format(shapes)) {
+  const std::string own = engine_format(arguments.engine, shapes);
+  if (arguments.format->count() > 0 && format != own) {
     refuse("The engine's files have their own format. Leave out --format.");
   }
+  format = own;
   if (frame.frame == Frame::Centred) {
     refuse("The engine's files are in the principal frame. Leave out --frame.");
   }

@@ -36,9 +36,9 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
 void tell_density_of_packing(CLI::Option& density);
 
 /// Throws wscvt::Error(InvalidInput) if there is no such engine, or its files cannot have the
-/// format or the frame; or for a curve that cannot be read. Sets the frame of the engine's files.
-void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes,
-                         const std::string& format, FrameOptions& frame);
+/// format or the frame; or for a curve that cannot be read. Sets the format and the frame.
+void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes, std::string& format,
+                         FrameOptions& frame);
 
 /// Throws wscvt::Error(InvalidInput) for options of several scans, if only one scan is given.
 void check_one_scan(const ScanInputs& arguments);

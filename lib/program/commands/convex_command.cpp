@@ -46,8 +46,8 @@ CLI::App& add_arguments(CLI::App& program, ConvexArguments& arguments) {
        true});
   app.add_option("-o,--output", arguments.outputs,
                  "Write the parts to this file: .obj (one group per part), .urdf (with one .obj "
-                 "per part beside it) or .xml (MuJoCo). May be given more than once. For several "
-                 "scans: folder of the parts and of the table grains.csv")
+                 "per part beside it), .xml (MuJoCo) or .shp (Rockable). May be given more than "
+                 "once. For several scans: folder of the parts and of the table grains.csv")
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->required();
@@ -110,14 +110,19 @@ int run(const ConvexArguments& arguments) {
   PartsResult result = make_parts(std::move(file.mesh), job.remesh, job.convex,
                                   work.execution().part(reading_share, 1.0));
   result.warnings.insert(result.warnings.begin(), file.warnings.begin(), file.warnings.end());
+  std::vector<Rounding> roundings;
   for (const std::string& output : arguments.outputs) {
     work.write(output, [&] {
-      const Sentence warning = write_parts(output, result, job.frame, job.density);
-      if (!warning.empty()) result.warnings.push_back(warning);
+      const WrittenParts written = write_parts(output, result, job.frame, job.density);
+      if (!written.warning.empty()) result.warnings.push_back(written.warning);
+      roundings.push_back(written.rounding);
     });
   }
   work.write_reports(common.reports, result, origin_of(scan));
-  work.print(result.warnings, parts_lines(result));
+  std::vector<std::string> lines = parts_lines(result);
+  const std::vector<std::string> rounded = rounding_lines(roundings);
+  lines.insert(lines.end(), rounded.begin(), rounded.end());
+  work.print(result.warnings, lines);
   return Done;
 }
 

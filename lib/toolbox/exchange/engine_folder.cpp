@@ -18,38 +18,53 @@ extern const char* const packing_script;
 extern const char* const run_yade_script;
 extern const char* const run_lammps_script;
 extern const char* const run_liggghts_script;
+extern const char* const run_mercurydpm_script;
+extern const char* const mercurydpm_settle_script;
+extern const char* const run_chrono_script;
+extern const char* const chrono_settle_script;
+extern const char* const run_dem_engine_script;
 extern const char* const run_mujoco_script;
 extern const char* const mujoco_settle_script;
 extern const char* const run_bullet_script;
 extern const char* const bullet_settle_script;
+extern const char* const run_rockable_script;
 
 namespace {
 
 struct EngineRow {
   std::string_view name;
-  bool takes_clumps;
-  bool takes_parts;
+  const char* clumps;  ///< ending of the clumps that it takes; or null
+  const char* parts;   ///< of the parts
   const char* command;
   const char* script;        ///< run.py
   const char* program_name;  ///< of a program that run.py compiles; or null
   const char* program;
 };
 
+constexpr const char* python = "python3 run.py";
+
 const std::vector<EngineRow>& engines() {
   static const std::vector<EngineRow> rows = {
-      {"yade", true, true, "yade -n -x run.py", run_yade_script, nullptr, nullptr},
-      {"lammps", true, false, "python3 run.py", run_lammps_script, nullptr, nullptr},
-      {"liggghts", true, false, "python3 run.py", run_liggghts_script, nullptr, nullptr},
-      {"mujoco", false, true, "python3 run.py", run_mujoco_script, "mujoco_settle.cpp",
+      {"yade", "csv", "obj", "yade -n -x run.py", run_yade_script, nullptr, nullptr},
+      {"lammps", "csv", nullptr, python, run_lammps_script, nullptr, nullptr},
+      {"liggghts", "csv", nullptr, python, run_liggghts_script, nullptr, nullptr},
+      {"mercurydpm", "csv", nullptr, python, run_mercurydpm_script, "mercurydpm_settle.cpp",
+       mercurydpm_settle_script},
+      {"chrono", "csv", nullptr, python, run_chrono_script, "chrono_settle.cpp",
+       chrono_settle_script},
+      {"dem-engine", "csv", nullptr, python, run_dem_engine_script, nullptr, nullptr},
+      {"mujoco", nullptr, "obj", python, run_mujoco_script, "mujoco_settle.cpp",
        mujoco_settle_script},
-      {"bullet", false, true, "python3 run.py", run_bullet_script, "bullet_settle.cpp",
+      {"bullet", nullptr, "obj", python, run_bullet_script, "bullet_settle.cpp",
        bullet_settle_script},
+      {"rockable", nullptr, "shp", python, run_rockable_script, nullptr, nullptr},
   };
   return rows;
 }
 
-bool takes(const EngineRow& engine, EngineShapes shapes) {
-  return shapes == EngineShapes::Clumps ? engine.takes_clumps : engine.takes_parts;
+/// Returns the ending of the shapes; or null if the engine does not take them.
+const char* format_of(const EngineRow& engine, EngineShapes shapes) {
+  return shapes == EngineShapes::Clumps ? engine.clumps : engine.parts;
 }
 
 std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOptions& frame,
@@ -74,11 +89,11 @@ std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOption
   return json_document(scene);
 }
 
-/// Throws as check_engine.
+/// Throws as engine_format.
 const EngineRow& engine_row(const std::string& engine, EngineShapes shapes) {
   for (const EngineRow& row : engines()) {
     if (row.name != engine) continue;
-    if (takes(row, shapes)) return row;
+    if (format_of(row, shapes) != nullptr) return row;
     refuse("\"" + engine + "\" takes no " +
            (shapes == EngineShapes::Clumps ? "clumps. Use wscvt convex"
                                            : "convex parts. Use wscvt clump") +
@@ -93,13 +108,15 @@ const EngineRow& engine_row(const std::string& engine, EngineShapes shapes) {
 std::string engine_names(EngineShapes shapes) {
   std::string names;
   for (const EngineRow& engine : engines()) {
-    if (!takes(engine, shapes)) continue;
+    if (format_of(engine, shapes) == nullptr) continue;
     names += (names.empty() ? "" : ", ") + std::string(engine.name);
   }
   return names;
 }
 
-void check_engine(const std::string& engine, EngineShapes shapes) { engine_row(engine, shapes); }
+std::string engine_format(const std::string& engine, EngineShapes shapes) {
+  return format_of(engine_row(engine, shapes), shapes);
+}
 
 void require_own_script(const std::string& folder) {
   const std::string script = file_content((std::filesystem::path(folder) / "run.py").string());
@@ -110,10 +127,6 @@ void require_own_script(const std::string& folder) {
          "\" has a run.py that was changed, or that is of another program. It would be replaced: "
          "rename it, or give another folder with " +
          mention("output") + ".");
-}
-
-std::string_view engine_format(EngineShapes shapes) {
-  return shapes == EngineShapes::Clumps ? "csv" : "obj";
 }
 
 std::string write_engine_folder(const std::string& folder, const std::string& engine,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "toolbox/exchange/simulation_options.h"
@@ -15,16 +14,14 @@ enum class EngineShapes { Clumps, Parts };
 /// Returns the names of the engines that take these shapes, with commas between.
 std::string engine_names(EngineShapes shapes);
 
-/// Throws Error(InvalidInput), with the names, unless the engine takes these shapes.
-void check_engine(const std::string& engine, EngineShapes shapes);
+/// Returns the ending of the files of grains in the folder of an engine, without the point: "csv"
+/// for clumps, "obj" or "shp" for parts. The files are in the principal frame. Throws
+/// Error(InvalidInput), with the engines' names, unless the engine takes these shapes.
+std::string engine_format(const std::string& engine, EngineShapes shapes);
 
 /// Throws Error(InvalidInput) if the folder has a run.py that is not as write_engine_folder writes
 /// it for any engine, because a person changed it or it is of another program.
 void require_own_script(const std::string& folder);
-
-/// Returns the ending of the files of grains in the folder of an engine, without the point: "csv"
-/// for clumps, "obj" for parts. The files are in the principal frame.
-std::string_view engine_format(EngineShapes shapes);
 
 /// Density of quartz, kg/m^3, in scene.json unless another is given.
 inline constexpr double engine_density = 2650.0;
@@ -40,7 +37,7 @@ struct EngineGrain {
 /// container, materials. The folder has the grains' files and their table grains.csv already. A
 /// scene.json that is there stays, so that changes are not lost. `frame` has the size of the files.
 /// Returns the command that starts the engine in the folder. Throws Error: InvalidInput as
-/// check_engine; InputOutput.
+/// engine_format; InputOutput.
 std::string write_engine_folder(const std::string& folder, const std::string& engine,
                                 EngineShapes shapes, const std::vector<EngineGrain>& grains,
                                 const FrameOptions& frame, double density = engine_density);

@@ -42,8 +42,7 @@ Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
   SimulationFrame frame;
   frame.origin = mass.centroid;
   frame.axes = mass.principal_axes;
-  const RockableShape shape = rockable_shape(std::filesystem::path(path).stem().string(),
-                                             in_frame(mesh, frame), in_frame(mass, frame));
+  const RockableShape shape = rockable_shape(path, in_frame(mesh, frame), in_frame(mass, frame));
   write_file(path, shape.text);
   return shape.rounding;
 }

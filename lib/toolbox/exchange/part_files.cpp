@@ -95,7 +95,7 @@ std::string mjcf_text(const std::string& path, const ConvexParts& parts, const M
 }  // namespace
 
 const std::vector<std::string>& part_endings() {
-  static const std::vector<std::string> endings = {".obj", ".urdf", ".xml"};
+  static const std::vector<std::string> endings = {".obj", ".urdf", ".xml", ".shp"};
   return endings;
 }
 
@@ -114,20 +114,29 @@ void check_part_file(const std::string& path) {
   if (std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end()) return;
   refuse("\"" + path +
          "\" does not have the ending of a format for convex parts. Give a name that ends in .obj, "
-         ".urdf or .xml (MJCF).");
+         ".urdf, .xml (MJCF) or .shp (Rockable).");
 }
 
-void write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
-                 double density) {
+Rounding write_parts(const std::string& path, const ConvexParts& parts, const MassProperties& mass,
+                     double density) {
   check_part_file(path);
-  if (ending_of(path) == ".obj") return write_file(path, obj_text(parts));
-  if (ending_of(path) == ".xml") return write_file(path, mjcf_text(path, parts, mass, density));
+  const std::string ending = ending_of(path);
+  if (ending == ".shp") {
+    const RockableShape shape = rockable_shape(path, joined(parts), mass);
+    write_file(path, shape.text);
+    return shape.rounding;
+  }
+  if (ending != ".urdf") {
+    write_file(path, ending == ".obj" ? obj_text(parts) : mjcf_text(path, parts, mass, density));
+    return {};
+  }
   for (std::size_t k = 1; k <= parts.size(); ++k) {
     std::string text;
     append_obj(parts[k - 1], k, 1, text);
     write_file((std::filesystem::path(path).parent_path() / part_name(path, k)).string(), text);
   }
   write_file(path, urdf_text(path, parts.size(), mass, density));
+  return {};
 }
 
 Sentence inertia_warning(const std::string& path, const MassProperties& mass, double density,
@@ -147,14 +156,14 @@ Sentence inertia_warning(const std::string& path, const MassProperties& mass, do
          ", and multiply gravity by " + format_number(units) + ".";
 }
 
-Sentence write_parts(const std::string& path, const PartsResult& result,
-                     const FrameOptions& options, double density) {
+WrittenParts write_parts(const std::string& path, const PartsResult& result,
+                         const FrameOptions& options, double density) {
   const SimulationFrame frame = simulation_frame(result.scan, options);
   const MassProperties mass = in_frame(mass_properties(result.scan), frame);
   ConvexParts parts = result.parts;
   for (IndexedMesh& part : parts) part = in_frame(std::move(part), frame);
-  write_parts(path, parts, mass, density);
-  return inertia_warning(path, mass, density, mention("size") + " or " + mention("scale"));
+  return {write_parts(path, parts, mass, density),
+          inertia_warning(path, mass, density, mention("size") + " or " + mention("scale"))};
 }
 
 }  // namespace wscvt

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
@@ -137,9 +138,17 @@ std::string text_of(const std::string& name, const IndexedMesh& corners, double 
          vector_text(moments) + "\n>\n";
 }
 
+/// Returns a file's name as one word.
+std::string word_of(const std::string& path) {
+  std::string word = std::filesystem::path(path).stem().string();
+  std::replace_if(
+      word.begin(), word.end(), [](unsigned char c) { return c <= ' '; }, '_');
+  return word.empty() ? "grain" : word;
+}
+
 }  // namespace
 
-RockableShape rockable_shape(const std::string& name, const IndexedMesh& mesh,
+RockableShape rockable_shape(const std::string& path, const IndexedMesh& mesh,
                              const MassProperties& mass) {
   const double of_grain = equivalent_radius(mass.volume);
   check_frame(mass, of_grain);
@@ -155,7 +164,7 @@ RockableShape rockable_shape(const std::string& name, const IndexedMesh& mesh,
     rounding = rounding_by(percent, corners, probes, of_grain, sums.area(), sums.volume());
     if (rounding.rms_percent <= allowed_rms_percent) break;
   }
-  return {text_of(name, corners, rounding.radius, mass), rounding};
+  return {text_of(word_of(path), corners, rounding.radius, mass), rounding};
 }
 
 std::vector<std::string> rounding_lines(const std::vector<Rounding>& bodies) {

@@ -26,17 +26,19 @@ struct RockableShape {
 };
 
 /// Makes a shape of Rockable, which exaDEM reads too: corners, edges and faces of a body rounded by
-/// a sphere, with its box, volume and moments. Not tested: Rockable is not in Debian.
+/// a sphere, with its box, volume and moments. No test runs Rockable, because Debian does not have
+/// it; lib/examples/engines/README.md says with which version packings were made by hand.
 ///
 /// The corners are drawn in so that the faces of the rounded body lie in the faces of the mesh. Its
 /// edges and corners are rounded off. Engines find a contact only if the overlap is smaller than
 /// the spheres, so the radius is the largest of 5, 4, 3, 2, 1, 0.5, 0.2 and 0.1 % of the equivalent
 /// radius with an rms distance of at most 0.1 % of it; if none has that, the smallest.
 ///
-/// `name` is one word. `mesh` is closed and outward. Throws Error(InvalidInput) unless `mass` is
+/// The shape has the name of the file. `mesh` is closed and outward; it may have several bodies, as
+/// convex parts are. Throws Error(InvalidInput) unless `mass` is
 /// given in the principal frame about the centroid, because the format has three moments and no
 /// axes.
-RockableShape rockable_shape(const std::string& name, const IndexedMesh& mesh,
+RockableShape rockable_shape(const std::string& path, const IndexedMesh& mesh,
                              const MassProperties& mass);
 
 /// Returns a line for a log about bodies that were rounded; no line without such bodies.

@@ -22,14 +22,6 @@ namespace wscvt {
 
 namespace {
 
-/// Returns a file's name as one word.
-std::string word_of(const std::string& path) {
-  std::string word = std::filesystem::path(path).stem().string();
-  std::replace_if(
-      word.begin(), word.end(), [](unsigned char c) { return c <= ' '; }, '_');
-  return word.empty() ? "grain" : word;
-}
-
 std::string grid_description(const DistanceGrid& grid, const RemeshResult& result,
                              const SimulationFrame& frame, const SimulationOptions& options,
                              const ReportOrigin& origin) {
@@ -104,7 +96,7 @@ Rounding write_nodes(const std::string& path, const RemeshResult& result,
   const std::string ending = ending_of(path);
   if (ending == ".shp") {
     const RockableShape shape =
-        rockable_shape(word_of(path), mesh, in_frame(mass_properties(result.scan), frame));
+        rockable_shape(path, mesh, in_frame(mass_properties(result.scan), frame));
     write_file(path, shape.text);
     return shape.rounding;
   }

@@ -88,7 +88,8 @@ GrainJob make_job(const ConvexJob& options, const std::string& folder, const Sha
         make_parts(std::move(grain.scan.mesh), options.remesh, options.convex, grain.execution);
     add_warnings(grain.scan, parts);
     const Sentence warning = write_parts(grain.folders.front().file_of(grain.name), parts,
-                                         options.frame, options.density);
+                                         options.frame, options.density)
+                                 .warning;
     if (!warning.empty()) parts.warnings.push_back(warning);
     return {sample_row(grain.name, parts_csv(parts, {grain.name, ""}))};
   };

@@ -14,12 +14,16 @@ scene.json, lengths and masses in the units of the grains' files:
 sizes.csv, if there, has equivalent diameters and the percentage finer by mass. Without it each grain has
 its shape's own size. templates.csv, if there, has the shapes' weights by number. Without it all are equal.
 """
+import collections
 import csv
 import json
 import math
 import os
 import pathlib
 import random
+import resource
+import shutil
+import subprocess
 import sys
 
 import numpy as np
@@ -37,23 +41,27 @@ def leave(sentence, code=2):
 
 class Shape:
     """A grain's body about its centroid in its principal axes, with volume, moments of unit density and
-    radius about the origin. `spheres` has rows x, y, z, r; or `parts` has (vertices, faces)."""
+    radius about the origin. `spheres` has rows x, y, z, r; or `parts` has (vertices, faces). `rounding` is the
+    radius of the sphere that rounds parts; they reach to the planes of the rounded faces."""
 
     def __init__(self, path, row, scene):
         values = {key.rpartition("mass_properties.")[2].rpartition("grain.")[2]: value for key, value in row.items()}
         volume = float(values["volume"])
         scale = scene["size"] / (6 * volume / math.pi) ** (1 / 3) if scene["size"] > 0 else scene["scale"]
-        self.name = path.stem
+        self.name, self.file = path.stem, path.name
         self.volume = volume * scale ** 3
         self.moments = scale ** 5 * np.array([float(values["principal_moments." + k])
                                               for k in ("least", "middle", "greatest")])
         self.diameter = (6 * self.volume / math.pi) ** (1 / 3)
-        self.spheres, self.parts = None, None
+        self.spheres, self.parts, self.rounding = None, None, 0.0
         if path.suffix == ".csv":
             self.spheres = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
             self.radius = (np.linalg.norm(self.spheres[:, :3], axis=1) + self.spheres[:, 3]).max()
         else:
-            self.parts = read_parts(path)
+            if path.suffix == ".shp":
+                self.parts, self.rounding = read_rounded_parts(path)
+            else:
+                self.parts = read_parts(path)
             self.radius = max(np.linalg.norm(v, axis=1).max() for v, _ in self.parts)
 
 
@@ -113,6 +121,18 @@ class Scene:
             height = solid / 0.55 / self.area()
             self.material["young_modulus"] = 3000 * density * self.gravity * max(height, self.mean_diameter)
         self.top = self.put_above_each_other()
+
+    def write_clumps(self, path):
+        """Writes the scene for a program that packs clumps: sides of the container and half its width, longest
+        time, time of the fall, energy at rest, gravity, and the material; of each grain mass, moments, place, turn,
+        and the number of its spheres, with x, y, z, r of each."""
+        with open(path, "w") as file:
+            print(4 if self.shape == "box" else 32, self.width / 2, self.longest_time(), self.fall_time(),
+                  self.energy_at_rest(), self.gravity, *(self.material[key] for key in (
+                      "density", "young_modulus", "poisson_ratio", "friction", "restitution")), file=file)
+            for grain in self.grains:
+                print(grain.mass, *grain.moments, *grain.place, *grain.turn, len(grain.shape.spheres),
+                      *(grain.scale * grain.shape.spheres).ravel(), file=file)
 
     def area(self):
         return self.width ** 2 * (1 if self.shape == "box" else math.pi / 4)
@@ -180,6 +200,32 @@ def read_parts(path):
     return [(np.array(vertices), np.array(faces)) for vertices, faces in parts]
 
 
+def read_rounded_parts(path):
+    """Vertices and triangles of the convex parts of a Rockable shape, out to the planes of the rounded faces,
+    and the radius of the sphere."""
+    words = path.read_text().split()
+
+    def rows(word, width):
+        first = words.index(word) + 2
+        return np.array(words[first:first + width * int(words[first - 1])], float).reshape(-1, width)
+
+    vertices, faces = rows("nv", 3), rows("nf", 4)[:, 1:].astype(int)
+    radius, part = float(words[words.index("radius") + 1]), np.arange(len(vertices))
+    while (part[faces] != part[faces[:, :1]]).any():  # each part by its first vertex
+        np.minimum.at(part, faces, part[faces].min(1)[:, None])
+    parts = []
+    for k in np.unique(part):
+        own = np.flatnonzero(part == k)
+        f = np.searchsorted(own, faces[part[faces[:, 0]] == k])
+        a, b, c = (vertices[own][f[:, j]] for j in range(3))
+        normals = np.cross(b - a, c - a)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        around = [normals[(f == v).any(1)] for v in range(len(own))]
+        moves = [np.linalg.lstsq(n, np.ones(len(n)), rcond=1e-3)[0] for n in around]
+        parts.append((vertices[own] + radius * np.array(moves), f))
+    return parts, radius
+
+
 def read_shapes(scene):
     rows = {row["grain"]: row for row in csv.DictReader(open(FOLDER / "grains.csv", newline=""))}
     shapes = [Shape(FOLDER / one["file"], rows[one["grain"]], scene) for one in scene["shapes"]
@@ -244,6 +290,26 @@ def is_inside(body, points):
         normals = np.cross(b - a, c - a)
         inside |= (points @ normals.T <= (normals * a).sum(1)).all(1)
     return inside
+
+
+def program(name):
+    """The path of a program; or the end, if it is not installed."""
+    return shutil.which(name) or leave("\"%s\" is not installed, or not in a folder of PATH." % name)
+
+
+def outcome(*command):
+    """Runs a program that prints lines of a word and numbers. Returns the rows of each word, and the processor
+    time that it took."""
+    def used():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    before, rows = used(), collections.defaultdict(list)
+    for line in subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines():
+        word, *numbers = line.split() or [""]
+        if word in ("energy", "grain", "sphere", "contact"):
+            rows[word].append([float(v) for v in numbers])
+    return rows, used() - before
 
 
 def porosity(scene, bodies, heights):

@@ -7,7 +7,6 @@ Compiles bullet_settle.cpp against Bullet's C++ library. Bullet's contact margin
 decimetres, so the model has grains of 0.2 m in the mean, and times follow. See packing.py for scene.json.
 """
 import math
-import resource
 import subprocess
 
 import packing
@@ -32,13 +31,8 @@ with open("packing.scene", "w") as file:
             print(len(vertices), *(length * grain.scale * vertices).ravel(), file=file)
 subprocess.run(["g++", "-O2", "-isystem", "/usr/include/bullet", packing.FOLDER / "bullet_settle.cpp", "-o",
                 "./bullet_settle", "-lBulletDynamics", "-lBulletCollision", "-lLinearMath"], check=True)
-before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-lines = subprocess.run("./bullet_settle", check=True, capture_output=True, text=True).stdout.splitlines()
-words = [line.split() for line in lines]
-rows = np.array([[float(v) for v in w[1:]] for w in words if w[0] == "grain"])
-for grain, row in zip(scene.grains, rows):
+rows, seconds = packing.outcome("./bullet_settle")
+for grain, row in zip(scene.grains, np.array(rows["grain"])):
     grain.place, grain.turn = row[:3] / length, row[3:]
 packing.finish("Bullet", scene, [grain.parts() for grain in scene.grains], [grain.place for grain in scene.grains],
-               [(float(w[1]) * pace, float(w[2]) * unit) for w in words if w[0] == "energy"],
-               resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before,
-               [(int(w[1]), int(w[2])) for w in words if w[0] == "contact"])
+               [(time * pace, energy * unit) for time, energy in rows["energy"]], seconds, rows["contact"])

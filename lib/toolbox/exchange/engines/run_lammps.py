@@ -98,7 +98,7 @@ label done
            most=max(1, math.ceil((scene.longest_time() - scene.fall_time()) / step / chunk)),
            rest=scene.energy_at_rest()))
 with open("packing.out", "w") as output:
-    subprocess.run(["lmp", "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
+    subprocess.run([packing.program("lmp"), "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
 
 
 def last(path):

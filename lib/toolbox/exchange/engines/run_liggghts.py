@@ -98,7 +98,7 @@ run {steps}
            templates="\n".join(lines), mixture_seed=next(seed), number=len(templates), mixture=mixture,
            source_seed=next(seed), count=len(scene.grains), often=max(1, steps // 40), steps=steps))
 with open("packing.out", "w") as output:
-    subprocess.run(["liggghts", "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
+    subprocess.run([packing.program("liggghts"), "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
 
 kinetic, moved = [], {}
 for text in open("packing.spheres").read().split("ITEM: TIMESTEP\n")[1:]:

@@ -72,19 +72,14 @@ try:
     owner = [m.geom_bodyid[g] - 1 for g in range(m.ngeom)]
     contacts = [(owner[c.geom1], owner[c.geom2]) for c in data.contact]
     usage = resource.getrusage(resource.RUSAGE_SELF)
+    used = usage.ru_utime + usage.ru_stime
 except ImportError:
     subprocess.run(["g++", "-O2", packing.FOLDER / "mujoco_settle.cpp", "-o", "./mujoco_settle", "-lmujoco"], check=True)
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    lines = subprocess.run(["./mujoco_settle", "packing.xml", str(seconds), str(scene.fall_time() / pace), str(rest)],
-                           check=True, capture_output=True, text=True).stdout.splitlines()
-    words = [line.split() for line in lines]
-    rows = np.array([[float(v) for v in w[1:]] for w in words if w[0] == "grain"])
-    kinetic = [tuple(float(v) for v in w[1:]) for w in words if w[0] == "energy"]
-    contacts = [(int(w[1]), int(w[2])) for w in words if w[0] == "contact"]
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    usage = type("usage", (), {"ru_utime": usage.ru_utime - before, "ru_stime": 0})
+    found, used = packing.outcome("./mujoco_settle", "packing.xml", str(seconds), str(scene.fall_time() / pace),
+                                  str(rest))
+    rows, kinetic, contacts = np.array(found["grain"]), found["energy"], found["contact"]
 for grain, row in zip(scene.grains, rows):
     grain.place, grain.turn = row[:3] / length, row[3:]
 packing.finish("MuJoCo", scene, [grain.parts() for grain in scene.grains], [grain.place for grain in scene.grains],
-               [(t * pace, e * unit) for t, e in kinetic], usage.ru_utime + usage.ru_stime,
+               [(t * pace, e * unit) for t, e in kinetic], used,
                [pair for pair in contacts if min(pair) >= 0])
