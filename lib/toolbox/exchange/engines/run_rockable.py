@@ -3,7 +3,8 @@
 
     python3 run.py [COUNT]
 
-Writes shapes.shp and input.txt, and starts `rockable`. See packing.py for scene.json.
+Writes shapes.shp and input.txt, and starts `rockable`. See packing.py for scene.json. Writes exadem.msp too, for
+exaDEM, which reads the same two files; it was compared with exaDEM's public examples and not run.
 """
 import math
 import pathlib
@@ -76,6 +77,23 @@ pathlib.Path("input.txt").write_text(
         law("ktContact", 0.8 * stiffness) + law("muContact", given["friction"]) + law("krContact", 0.0) +
         law("murContact", 0.0),
         driven=1 + len(walls), count=len(particles), particles="\n".join(particles)))
+
+cell = 2.2 * max(grain.radius for grain in scene.grains)
+sides = [math.ceil(length / cell) + 2 for length in (scene.width, scene.width, scene.top)]
+contact = "{ rcut: 0 m, dncut: 0 m, kn: %.9g, kt: %.9g, kr: 0, fc: 0, mu: %.9g, damp_rate: 0.9 }" % (
+    stiffness, 0.8 * stiffness, given["friction"])
+pathlib.Path("exadem.msp").write_text(
+    "grid_flavor: grid_flavor_dem\n\nincludes:\n  - config_polyhedra.msp\n\ninput_data:\n  - read_conf_rockable:\n"
+    "     filename: input.txt\n\ncompute_force:\n  - gravity_force:\n     gravity: [0, 0, {gravity!r}]\n"
+    "  - contact_polyhedron:\n     config: {contact}\n     config_driver: {contact}\n\n"
+    "iteration_dump_writer:\n  - write_conf_rockable\n\ndomain:\n  cell_size: {cell!r} m\n"
+    "  periodic: [false, false, false]\n  grid_dims: {sides}\n"
+    "  bounds: [[{low!r} m, {low!r} m, {below!r} m], [{x!r} m, {y!r} m, {z!r} m]]\n  expandable: true\n\nglobal:\n"
+    "  simulation_dump_frequency: {often}\n  simulation_end_iteration: {steps}\n  simulation_log_frequency: {often}\n"
+    "  simulation_paraview_frequency: {often}\n  rcut_inc: {near!r} m\n".format(
+        gravity=-scene.gravity, contact=contact, cell=cell, sides=sides, low=-scene.width / 2 - cell, below=-cell,
+        x=-scene.width / 2 - cell + sides[0] * cell, y=-scene.width / 2 - cell + sides[1] * cell,
+        z=-cell + sides[2] * cell, often=often, steps=round(scene.longest_time() / step), near=near))
 
 
 def energies():
