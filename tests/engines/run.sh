@@ -92,12 +92,13 @@ packing() {  # folder, heading, grains, lower and upper limit of the porosity, c
   test -s "$folder/packing.png"
   test "$(wc -l < "$folder/packing.csv")" = $((grains + 1))
 }
-# Random packings of grains with friction have .4 to .55. Walls add to it: three grains fit side by side here.
+# Random packings of grains with friction have .4 to .55. Walls add to it: three grains fit side by side here. A scene has
+# no unit of its own: fine sand in metres and gravel in millimetres come to rest too.
 packing yade_clumps Yade 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine yade
 container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine yade
-packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.02 --engine yade
+packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.0005 --engine yade
 packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine lammps
-container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine liggghts
+container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 20 --engine liggghts
 packing mujoco MuJoCo 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine mujoco
 container=cylinder packing bullet Bullet 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine bullet
 # Sizes of the packing follow the curve: 60 % of the mass is finer than 0.02. One of 120 grains has up to 3 %.

@@ -26,7 +26,9 @@ if are_clumps:
 else:
     # Where two grains come near each other, Yade warns in each step of a case that it takes rightly.
     log.setLevel("Polyhedra_support.cpp", log.ERROR)
-    material = PolyhedraMat(young=young, poisson=given["poisson_ratio"], frictionAngle=friction,
+    # Yade multiplies it by the volume that two polyhedra share, so it is a pressure per length.
+    stiffness = young / scene.mean_diameter
+    material = PolyhedraMat(young=stiffness, poisson=given["poisson_ratio"], frictionAngle=friction,
                             density=given["density"])
 O.materials.append(material)
 O.bodies.append(utils.wall(0, axis=2, sense=1, material=material))
@@ -77,7 +79,7 @@ else:
     contacts = [Ig2_Wall_Polyhedra_PolyhedraGeom(), Ig2_Polyhedra_Polyhedra_PolyhedraGeom(),
                 Ig2_Facet_Polyhedra_PolyhedraGeom()]
     physics, law = Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys(), Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()
-    O.dt = 0.12 * smallest * math.sqrt(given["density"] / young)
+    O.dt = 0.12 * math.sqrt(smallest * given["density"] / stiffness)
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([bounds, Bo1_Wall_Aabb(), Bo1_Facet_Aabb()], verletDist=0.05 * smallest),
