@@ -138,8 +138,8 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   EXPECT_TRUE(holds(content("out/run.py"), "import packing"));
   EXPECT_TRUE(exists("out/packing.py"));
   const std::string scene = content("out/scene.json");
-  EXPECT_TRUE(holds(scene, "\"grain\": \"scans/b.ply\""));
-  EXPECT_TRUE(holds(scene, "\"file\": \"b.csv\""));
+  EXPECT_TRUE(holds(content("out/shapes.json"), "\"grain\": \"scans/b.ply\""));
+  EXPECT_TRUE(holds(content("out/shapes.json"), "\"file\": \"b.csv\""));
   EXPECT_TRUE(holds(scene, "\"size\": 0.2"));
   EXPECT_TRUE(exists("out/b.csv"));
   EXPECT_TRUE(holds(scene, "\"density\": 2650.0"));
@@ -153,13 +153,20 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   std::filesystem::remove(path("out/sizes.csv"));
   EXPECT_EQ(run(own_sizes).exit_code, 3);
   EXPECT_FALSE(exists("out/sizes.csv"));
-  // What a person changed stays.
+  // What a person changed stays, and a grain that was added later is packed too.
   std::ofstream(path("out/scene.json")) << "{}";
+  std::filesystem::copy(path("scans/b.ply"), path("scans/z.ply"));
   EXPECT_EQ(run(call).exit_code, 3);
   EXPECT_EQ(content("out/scene.json"), "{}");
-  // One scan is a sample too; templates bring their weights and sizes.
-  ASSERT_EQ(run("convex scans/a.ply -k 1 -n 60 -q -o hull --engine yade").exit_code, 0);
-  EXPECT_TRUE(exists("hull/a.obj"));
+  EXPECT_TRUE(holds(content("out/shapes.json"), "\"file\": \"z.csv\""));
+  std::filesystem::remove(path("scans/z.ply"));
+  // One scan is a sample too, and is named as in grains.csv; templates bring their weights and
+  // sizes.
+  std::filesystem::copy(path("scans/a.ply"), path("=a.ply"));
+  ASSERT_EQ(run("convex =a.ply -k 1 -n 60 -q -o hull --engine yade").exit_code, 0);
+  EXPECT_TRUE(exists("hull/=a.obj"));
+  EXPECT_TRUE(holds(content("hull/grains.csv"), "\n'=a.ply,"));
+  EXPECT_TRUE(holds(content("hull/shapes.json"), "\"grain\": \"'=a.ply\""));
   std::filesystem::remove(path("scans/torn.ply"));
   std::ofstream(path("scans/templates.csv")) << "file,weight_by_number\na.ply,0.3\nb.ply,0.7\n";
   std::ofstream(path("scans/sizes.csv"), std::ios::binary) << heading + "1,0\r\n2,100\r\n";
@@ -197,7 +204,7 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
                   {"--size-curve curve.csv", 2, "Give --engine"}},
                  {"new"});
   ASSERT_EQ(run("convex scans -k 2 -n 60 -q -o rounded --engine rockable").exit_code, 0);
-  EXPECT_TRUE(holds(content("rounded/scene.json"), "\"file\": \"a.shp\""));
+  EXPECT_TRUE(holds(content("rounded/shapes.json"), "\"file\": \"a.shp\""));
   EXPECT_TRUE(holds(content("rounded/a.shp"), "preCompDone y"));
   expect_refused("convex scans -o new",
                  {{"--engine yade", 2, "Give -k 1"},

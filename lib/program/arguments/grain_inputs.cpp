@@ -18,6 +18,7 @@
 #include "wscvt/base/input_file.h"
 #include "wscvt/base/option.h"
 #include "wscvt/base/output_file.h"
+#include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"
 
 namespace wscvt::program {
@@ -61,7 +62,7 @@ std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
   const JobFolder folder = folders_of(job).front();
   std::vector<EngineGrain> list;
   for (std::size_t k = 0; k < grains.size(); ++k) {
-    list.push_back({grains.name(k), folder.name_of(grains.name(k))});
+    list.push_back({csv_field(grains.name(k)), folder.name_of(grains.name(k))});
   }
   const std::string& in = arguments.inputs.front();
   // run.py reads only commas, decimal points and one heading.

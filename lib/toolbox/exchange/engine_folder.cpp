@@ -67,12 +67,7 @@ const char* format_of(const EngineRow& engine, EngineShapes shapes) {
   return shapes == EngineShapes::Clumps ? engine.clumps : engine.parts;
 }
 
-std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOptions& frame,
-                       double density) {
-  Json list = Json::array();
-  for (const EngineGrain& grain : grains) {
-    list.push_back({{"grain", grain.name}, {"file", grain.file}});
-  }
+std::string scene_text(const FrameOptions& frame, double density) {
   const Json scene = {{"grains", 200},
                       {"seed", 1},
                       {"container", {{"shape", "box"}, {"width", 0.0}}},
@@ -84,9 +79,16 @@ std::string scene_text(const std::vector<EngineGrain>& grains, const FrameOption
                         {"friction", 0.5},
                         {"restitution", 0.2}}},
                       {"size", frame.size},
-                      {"scale", frame.scale},
-                      {"shapes", std::move(list)}};
+                      {"scale", frame.scale}};
   return json_document(scene);
+}
+
+std::string shapes_text(const std::vector<EngineGrain>& grains) {
+  Json list = Json::array();
+  for (const EngineGrain& grain : grains) {
+    list.push_back({{"grain", grain.name}, {"file", grain.file}});
+  }
+  return json_document(list);
 }
 
 /// Throws as engine_format.
@@ -137,10 +139,11 @@ std::string write_engine_folder(const std::string& folder, const std::string& en
   write_file((in / "packing.py").string(), packing_script);
   write_file((in / "run.py").string(), row.script);
   if (row.program != nullptr) write_file((in / row.program_name).string(), row.program);
+  write_file((in / "shapes.json").string(), shapes_text(grains));
   const std::filesystem::path scene = in / "scene.json";
   std::error_code ignored;
   if (!std::filesystem::exists(scene, ignored)) {
-    write_file(scene.string(), scene_text(grains, frame, density));
+    write_file(scene.string(), scene_text(frame, density));
   }
   return row.command;
 }

@@ -33,11 +33,11 @@ struct EngineGrain {
 };
 
 /// Writes what an engine needs to pack the grains of a folder: run.py, which starts the engine,
-/// packing.py, which it uses, and scene.json, with what a person changes: number of grains,
-/// container, materials. The folder has the grains' files and their table grains.csv already. A
-/// scene.json that is there stays, so that changes are not lost. `frame` has the size of the files.
-/// Returns the command that starts the engine in the folder. Throws Error: InvalidInput as
-/// engine_format; InputOutput.
+/// packing.py, which it uses, shapes.json, the list of the grains, and scene.json, with what a
+/// person changes: number of grains, container, materials. The folder has the grains' files and
+/// their table grains.csv already. A scene.json that is there stays, so that changes are not lost.
+/// `frame` has the size of the files. Returns the command that starts the engine in the folder.
+/// Throws Error: InvalidInput as engine_format; InputOutput.
 std::string write_engine_folder(const std::string& folder, const std::string& engine,
                                 EngineShapes shapes, const std::vector<EngineGrain>& grains,
                                 const FrameOptions& frame, double density = engine_density);

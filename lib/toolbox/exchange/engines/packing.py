@@ -10,7 +10,7 @@ scene.json, lengths and masses in the units of the grains' files:
   size, scale            as wscvt was called
   material               density; young_modulus (0: chosen so that the lowest grains give way little),
                          poisson_ratio, friction, restitution
-  shapes                 a grain and its file each
+shapes.json has the grains and a file each; wscvt writes it again when it adds grains.
 sizes.csv, if there, has equivalent diameters and the percentage finer by mass. Without it each grain has
 its shape's own size. templates.csv, if there, has the shapes' weights by number. Without it all are equal.
 """
@@ -228,7 +228,8 @@ def read_rounded_parts(path):
 
 def read_shapes(scene):
     rows = {row["grain"]: row for row in csv.DictReader(open(FOLDER / "grains.csv", newline=""))}
-    shapes = [Shape(FOLDER / one["file"], rows[one["grain"]], scene) for one in scene["shapes"]
+    files = json.loads((FOLDER / "shapes.json").read_text())
+    shapes = [Shape(FOLDER / one["file"], rows[one["grain"]], scene) for one in files
               if rows.get(one["grain"], {}).get("status") == "done"]
     return shapes or leave("grains.csv has no grain that is done.")
 
@@ -262,6 +263,15 @@ def diameter(fraction, curve):
             return (a ** -3 - left / number * (a ** -3 - b ** -3)) ** (-1 / 3)
         left -= number
     return curve[-1][0]
+
+
+def run_engine(name, *words):
+    """Runs a program; what it prints is in packing.out."""
+    try:
+        with open("packing.out", "w") as output:
+            subprocess.run([program(name), *words], check=True, stdout=output, stderr=output)
+    except subprocess.CalledProcessError:
+        leave("\"%s\" failed; packing.out says why." % name)
 
 
 def touching(bodies):

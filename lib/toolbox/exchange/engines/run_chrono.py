@@ -7,7 +7,6 @@ Compiles chrono_settle.cpp by CMake, which finds Chrono where it is installed or
 folder of its ChronoConfig.cmake. See packing.py for scene.json.
 """
 import pathlib
-import subprocess
 
 import packing
 from packing import np
@@ -21,9 +20,8 @@ find_package(Chrono CONFIG REQUIRED)
 add_executable(chrono_settle "%s")
 target_link_libraries(chrono_settle Chrono::Chrono_core)
 """ % (packing.FOLDER / "chrono_settle.cpp").as_posix())
-with open("packing.out", "w") as output:
-    for words in ["-S", "chrono", "-B", "chrono/build", "-DCMAKE_BUILD_TYPE=Release"], ["--build", "chrono/build"]:
-        subprocess.run([packing.program("cmake")] + words, check=True, stdout=output)
+packing.run_engine("cmake", "-S", "chrono", "-B", "chrono/build", "-DCMAKE_BUILD_TYPE=Release")
+packing.run_engine("cmake", "--build", "chrono/build")
 rows, seconds = packing.outcome("chrono/build/chrono_settle")
 for grain, row in zip(scene.grains, np.array(rows["grain"])):
     grain.place, grain.turn = row[:3], row[3:]

@@ -8,7 +8,6 @@ Writes packing.in and starts `lmp`. See packing.py for scene.json.
 import math
 import pathlib
 import resource
-import subprocess
 
 import packing
 from packing import np
@@ -97,8 +96,7 @@ label done
            fall=chunk * math.ceil(scene.fall_time() / step / chunk),
            most=max(1, math.ceil((scene.longest_time() - scene.fall_time()) / step / chunk)),
            rest=scene.energy_at_rest()))
-with open("packing.out", "w") as output:
-    subprocess.run([packing.program("lmp"), "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
+packing.run_engine("lmp", "-in", "packing.in", "-log", "packing.log")
 
 
 def last(path):

@@ -10,7 +10,6 @@ import collections
 import math
 import pathlib
 import resource
-import subprocess
 
 import packing
 from packing import np
@@ -68,6 +67,7 @@ boundary f f f
 newton off
 communicate single vel yes
 soft_particles yes
+hard_particles yes
 units si
 region box block {edge_low!r} {edge!r} {edge_low!r} {edge!r} {below!r} {top!r} units box
 region column {region} units box
@@ -97,8 +97,7 @@ run {steps}
            friction=given["friction"], model=model, step=step, gravity=scene.gravity, walls="\n".join(walls),
            templates="\n".join(lines), mixture_seed=next(seed), number=len(templates), mixture=mixture,
            source_seed=next(seed), count=len(scene.grains), often=max(1, steps // 40), steps=steps))
-with open("packing.out", "w") as output:
-    subprocess.run([packing.program("liggghts"), "-in", "packing.in", "-log", "packing.log"], check=True, stdout=output)
+packing.run_engine("liggghts", "-in", "packing.in", "-log", "packing.log")
 
 kinetic, moved = [], {}
 for text in open("packing.spheres").read().split("ITEM: TIMESTEP\n")[1:]:
