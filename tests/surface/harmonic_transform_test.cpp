@@ -70,6 +70,36 @@ TEST(HarmonicTransform, QuadratureOfASynthesisGivesTheCoefficientsBack) {
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(back[k], a[k], 1e-12);
 }
 
+// Eigen's product of matrices adds in an order that its blocks decide, and in fused steps on Arm.
+TEST(HarmonicTransform, AddsOneTermAfterTheOther) {
+  const int degree = 12;
+  const int rows = 35;
+  const HarmonicTransform transform = equal_angle_transform(degree, rows);
+  const std::vector<double> coefficients = wave(harmonic_count(degree));
+  const std::vector<double> values = transform.synthesize(coefficients, Execution(2));
+  const std::vector<double> cosines = SphereGrid::row_cosines(rows);
+  const std::vector<double> sines = SphereGrid::row_sines(rows);
+  const std::vector<Eigen::Vector2d> circle = azimuth_circle(2 * rows);
+  std::vector<double> expected(values.size(), 0.0);
+  std::vector<double> legendre(cosines.size() * (degree + 1));
+  for (int m = 0; m <= degree; ++m) {
+    associated_legendre(degree, m, cosines.data(), sines.data(), cosines.size(), legendre.data());
+    for (std::size_t place = 0; place < values.size(); ++place) {
+      const std::size_t row = place / circle.size();
+      Eigen::Vector2d sums = Eigen::Vector2d::Zero();
+      for (int l = m; l <= degree; ++l) {
+        const double along = legendre[static_cast<std::size_t>(l - m) * cosines.size() + row];
+        sums.x() += coefficients[harmonic_index(l, m)] * along;
+        if (m > 0) sums.y() += coefficients[harmonic_index(l, -m)] * along;
+      }
+      const Eigen::Vector2d& turn = circle[place * static_cast<std::size_t>(m) % circle.size()];
+      expected[place] += sums.x() * turn.x();
+      if (m > 0) expected[place] += sums.y() * turn.y();
+    }
+  }
+  EXPECT_EQ(values, expected);
+}
+
 TEST(HarmonicTransform, SameBitsOnAnyNumberOfThreads) {
   const HarmonicTransform transform = equal_angle_transform(20, 100);
   const std::vector<double> a = wave(harmonic_count(20));

@@ -12,11 +12,14 @@
 
 namespace wscvt {
 
+// The sums are written out, term by term: Eigen's product of two matrices adds in an order, and on
+// Arm in fused steps, that depend on the processor.
+
 namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows per block of the azimuthal products: enough for Eigen, few enough for several threads.
+/// Rows per block of the azimuthal sums.
 constexpr std::size_t row_block = 32;
 
 /// Grid rows per degree in the search for the smallest radius. A series has no dip narrower than
@@ -82,23 +85,23 @@ std::vector<double> HarmonicTransform::synthesize(const std::vector<double>& coe
            std::to_string(harmonic_count(degree_)) + " coefficients, not " +
            std::to_string(coefficients.size()) + ".");
   }
-  RowMajor orders(rows_, 2 * degree_ + 1);
+  Eigen::MatrixXd orders = Eigen::MatrixXd::Zero(rows_, 2 * degree_ + 1);
   execution.parallel_for_each(legendre_.size(), 4, [&](std::size_t order) {
     const int m = static_cast<int>(order);
-    Eigen::MatrixXd pair(degree_ + 1 - m, m > 0 ? 2 : 1);
     for (int l = m; l <= degree_; ++l) {
-      pair(l - m, 0) = coefficients[harmonic_index(l, m)];
-      if (m > 0) pair(l - m, 1) = coefficients[harmonic_index(l, -m)];
+      const auto along = legendre_[order].col(l - m);
+      orders.col(first_column(m)) += coefficients[harmonic_index(l, m)] * along;
+      if (m > 0) orders.col(first_column(m) + 1) += coefficients[harmonic_index(l, -m)] * along;
     }
-    orders.middleCols(first_column(m), pair.cols()).noalias() = legendre_[order] * pair;
   });
   std::vector<double> values(rows() * azimuths());
   Eigen::Map<RowMajor> grid(values.data(), rows_, azimuths_);
   execution.parallel_for(rows(), row_block, [&](std::size_t begin, std::size_t end) {
-    const auto first = signed_index(begin);
-    const auto count = signed_index(end - begin);
-    grid.middleRows(first, count).noalias() =
-        orders.middleRows(first, count) * trigonometric_.transpose();
+    for (Eigen::Index j = signed_index(begin); j < signed_index(end); ++j) {
+      for (Eigen::Index c = 0; c < orders.cols(); ++c) {
+        grid.row(j) += orders(j, c) * trigonometric_.col(c).transpose();
+      }
+    }
   });
   return values;
 }
@@ -111,20 +114,26 @@ std::vector<double> HarmonicTransform::analyze(const std::vector<double>& values
            std::to_string(values.size()) + ".");
   }
   const Eigen::Map<const RowMajor> grid(values.data(), rows_, azimuths_);
-  Eigen::MatrixXd orders(rows_, 2 * degree_ + 1);
+  const RowMajor by_azimuth = trigonometric_;
+  RowMajor orders = RowMajor::Zero(rows_, 2 * degree_ + 1);
   execution.parallel_for(rows(), row_block, [&](std::size_t begin, std::size_t end) {
-    const auto first = signed_index(begin);
-    const auto count = signed_index(end - begin);
-    orders.middleRows(first, count).noalias() = grid.middleRows(first, count) * trigonometric_;
+    for (Eigen::Index j = signed_index(begin); j < signed_index(end); ++j) {
+      for (Eigen::Index k = 0; k < azimuths_; ++k) {
+        orders.row(j) += grid(j, k) * by_azimuth.row(k);
+      }
+    }
   });
   std::vector<double> coefficients(harmonic_count(degree_));
   execution.parallel_for_each(legendre_.size(), 4, [&](std::size_t order) {
     const int m = static_cast<int>(order);
-    const Eigen::MatrixXd pair =
-        legendre_[order].transpose() * orders.middleCols(first_column(m), m > 0 ? 2 : 1);
     for (int l = m; l <= degree_; ++l) {
-      coefficients[harmonic_index(l, m)] = pair(l - m, 0);
-      if (m > 0) coefficients[harmonic_index(l, -m)] = pair(l - m, 1);
+      const auto sum = [&, along = legendre_[order].col(l - m)](Eigen::Index column) {
+        double result = 0.0;
+        for (Eigen::Index j = 0; j < rows_; ++j) result += along(j) * orders(j, column);
+        return result;
+      };
+      coefficients[harmonic_index(l, m)] = sum(first_column(m));
+      if (m > 0) coefficients[harmonic_index(l, -m)] = sum(first_column(m) + 1);
     }
   });
   return coefficients;
