@@ -13,14 +13,15 @@ rm -rf "$folder"
 mkdir -p "$folder/scans"
 cd "$folder"
 /usr/bin/python3 "$examples/ct_volume.py" whole.npy
-# Three volumes of their own: turned, and one that cuts grains at its border. A name has a space.
+# Three volumes of their own: turned, and one that cuts grains at its border. One name has a space, one begins
+# as another, which is also that of the page of all.
 /usr/bin/python3 - << 'END'
 import numpy
 
 volume = numpy.load("whole.npy")
-numpy.save("scans/north.npy", volume)
+numpy.save("scans/sample.1.npy", volume)
 numpy.save("scans/south pit.npy", volume[::-1, :, ::-1].copy())
-numpy.save("scans/west.npy", volume[:60].transpose(1, 0, 2).copy())
+numpy.save("scans/sample.npy", volume[:60].transpose(1, 0, 2).copy())
 END
 
 flow() {  # folder to run in, further arguments
@@ -39,7 +40,7 @@ setsid sh -c 'cd cut && exec snakemake -s "$0/workflow/Snakefile" --cores 2 --co
   "$examples" "$program" > cut/log.first 2>&1 &
 running=$!
 tries=0
-until ls cut/out/*/*.ply > /dev/null 2>&1; do
+until ls cut/out/grains/*/*.ply > /dev/null 2>&1; do
   tries=$((tries + 1))
   [ "$tries" -lt 1200 ] || { echo "The workflow made no remesh in two minutes." >&2; exit 1; }
   sleep 0.1
@@ -50,8 +51,8 @@ wait "$running" && { echo "The workflow was not interrupted." >&2; exit 1; }
 flow cut
 cmp whole/out/shape.csv cut/out/shape.csv
 cmp whole/out/sample.html cut/out/sample.html
-for scan in north "south pit" west; do
-  cmp "whole/out/$scan/grains.csv" "cut/out/$scan/grains.csv"
+for scan in sample sample.1 "south pit"; do
+  cmp "whole/out/grains/$scan/grains.csv" "cut/out/grains/$scan/grains.csv"
 done
 rows=$(($(wc -l < whole/out/shape.csv) - 1))
 meshes=$(find whole/out -name '*.ply' | wc -l)
