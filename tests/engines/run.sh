@@ -66,9 +66,10 @@ awk '{ hertz = 4 / 3 / (1 - 0.25 ^ 2) * 0.05 ^ 1.5
 # The document's own commands: 20 templates, and 500 virtual grains, packed.
 sh "$here/growing.sh" "$program" "$folder/growing"
 
-# From scans to a packing at rest. One of the scans is broken, and names have spaces.
+# From scans to a packing at rest. One of the scans is broken, and names have spaces and a comma.
 mkdir -p "my scans"
-cp "$here/../../meshes/sand_5658.ply" "$here/../../meshes/angular_6000.ply" "my scans"
+cp "$here/../../meshes/sand_5658.ply" "my scans/sand, 5658.ply"
+cp "$here/../../meshes/angular_6000.ply" "my scans"
 head -c 20000 "$here/../../meshes/sand_5658.ply" > "my scans/broken scan.ply"
 printf 'diameter,finer\n0.01,0\n0.02,60\n0.03,100\n' > curve.csv
 packing() {  # folder, heading, grains, lower and upper limit of the porosity, call

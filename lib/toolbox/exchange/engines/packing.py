@@ -352,9 +352,10 @@ def finish(engine, scene, bodies, places, kinetic, seconds, contacts=None):
     count = len(scene.grains)
     at_rest = kinetic[-1][1] < scene.energy_at_rest()
     with open("packing.csv", "w") as table:
-        print("grain,equivalent_diameter,x,y,z", file=table)
+        rows = csv.writer(table, lineterminator="\n")
+        rows.writerow(["grain", "equivalent_diameter", "x", "y", "z"])
         for grain, place in zip(scene.grains, places):
-            print(grain.shape.name, "%.9g" % grain.diameter, *("%.9g" % v for v in place), sep=",", file=table)
+            rows.writerow([grain.shape.name, *("%.9g" % v for v in (grain.diameter, *place))])
     print("%s: %d grains %s after %.3g s: porosity %.3f, coordination %.2f, height %.3g, potential energy %.4g, "
           "kinetic energy %.2g, %.3g s of processor" %
           (engine, count, "at rest" if at_rest else "still moving", kinetic[-1][0], porosity(scene, bodies, places[:, 2]),
