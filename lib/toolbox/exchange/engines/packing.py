@@ -122,17 +122,20 @@ class Scene:
             self.material["young_modulus"] = 3000 * density * self.gravity * max(height, self.mean_diameter)
         self.top = self.put_above_each_other()
 
-    def write_clumps(self, path):
+    def write_clumps(self, path, length=1.0):
         """Writes the scene for a program that packs clumps: sides of the container and half its width, longest
         time, time of the fall, energy at rest, gravity, and the material; of each grain mass, moments, place, turn,
-        and the number of its spheres, with x, y, z, r of each."""
+        and the number of its spheres, with x, y, z, r of each. Lengths are `length` times as large, with the same
+        density and gravity: times are length^.5 times as long, energies length^4 times as large."""
+        pace, material = math.sqrt(length), self.material
         with open(path, "w") as file:
-            print(4 if self.shape == "box" else 32, self.width / 2, self.longest_time(), self.fall_time(),
-                  self.energy_at_rest(), self.gravity, *(self.material[key] for key in (
-                      "density", "young_modulus", "poisson_ratio", "friction", "restitution")), file=file)
+            print(4 if self.shape == "box" else 32, length * self.width / 2, pace * self.longest_time(),
+                  pace * self.fall_time(), length ** 4 * self.energy_at_rest(), self.gravity, material["density"],
+                  length * material["young_modulus"], material["poisson_ratio"], material["friction"],
+                  material["restitution"], file=file)
             for grain in self.grains:
-                print(grain.mass, *grain.moments, *grain.place, *grain.turn, len(grain.shape.spheres),
-                      *(grain.scale * grain.shape.spheres).ravel(), file=file)
+                print(length ** 3 * grain.mass, *(length ** 5 * grain.moments), *(length * grain.place), *grain.turn,
+                      len(grain.shape.spheres), *(length * grain.scale * grain.shape.spheres).ravel(), file=file)
 
     def area(self):
         return self.width ** 2 * (1 if self.shape == "box" else math.pi / 4)
