@@ -873,6 +873,21 @@ TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {
       EXPECT_EQ(looks(found).find("may be cut") != std::string::npos, cuts) << looks(found);
     }
   }
+  // Slices that were added at both ends of the cylinder, and around a box.
+  for (const bool is_box : {false, true}) {
+    std::vector<float> values(made_.labels.begin(), made_.labels.end());
+    outside_of(is_box ? 99.0 : 26.9, [&](std::size_t k) { values[k] = 0.0F; });
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t x = k % 56;
+      const std::size_t z = k / (56 * 52);
+      const bool is_beside = is_box && (x < 2 || x > 53 || k / 56 % 52 < 2 || k / 56 % 52 > 49);
+      if (z < 1 || z > 38 || is_beside) values[k] = 0.0F;
+    }
+    write("a.nrrd", "NRRD0004\ntype: float" + header + raw_bytes(values));
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.grains.size() + static_cast<std::size_t>(found.cut), 8U) << is_box;
+    EXPECT_NEAR(found.threshold, 75.0, 4.0) << is_box;
+  }
   // One side, and slices at the end, from the middles of two and four balls on.
   for (const bool is_side : {false, true}) {
     std::vector<float> values(made_.labels.begin(), made_.labels.end());

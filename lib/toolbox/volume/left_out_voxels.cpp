@@ -53,17 +53,29 @@ void keep_connected_to_border(std::vector<std::uint8_t>& marks, const VoxelCount
   invert();
 }
 
-/// Whether the voxels of 0 are nearly convex along each axis, and reach across the volume.
+/// Whether a body has both ends along an axis that a scan has: at the border of the volume, or a
+/// plane, as where slices were added. A convex grain has neither. `sections`: voxels of the body in
+/// each slice across the axis.
+bool is_cut_at_both_ends(const std::vector<std::size_t>& sections) {
+  const std::size_t largest = *std::max_element(sections.begin(), sections.end());
+  const auto is_cut = [&](auto first, auto end) {
+    if (*first > 0) return true;
+    return 2 * *std::find_if(first, end, [](std::size_t count) { return count > 0; }) > largest;
+  };
+  return largest > 0 && is_cut(sections.begin(), sections.end()) &&
+         is_cut(sections.rbegin(), sections.rend());
+}
+
+/// Whether the voxels of 0 are nearly convex along each axis, and cut at both ends of one.
 bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCounts& counts) {
   const VoxelGrid grid(counts);
   std::size_t left = 0;
   std::size_t gaps = 0;
-  bool reaches_across = false;
+  bool is_cut = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t length = grid.sizes[axis];
     const std::size_t step = grid.steps[axis];
-    bool has_first = false;
-    bool has_last = false;
+    std::vector<std::size_t> sections(length, 0);
     for (std::size_t begin = 0; begin < marks.size(); ++begin) {
       if (begin / step % length != 0) continue;
       std::size_t pending = 0;
@@ -77,14 +89,13 @@ bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCou
         if (is_in) gaps += pending;
         pending = 0;
         is_in = true;
-        has_first = has_first || k == 0;
-        has_last = has_last || k + 1 == length;
+        ++sections[k];
       }
     }
-    reaches_across = reaches_across || (has_first && has_last);
+    is_cut = is_cut || is_cut_at_both_ends(sections);
   }
   constexpr double most_gaps = 0.02;  // noise that has the value by chance
-  return reaches_across && static_cast<double>(gaps) < most_gaps * static_cast<double>(left);
+  return is_cut && static_cast<double>(gaps) < most_gaps * static_cast<double>(left);
 }
 
 /// One of the six sides of a volume, and the rays from it, one from each of its voxels.

@@ -89,9 +89,10 @@ ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelC
 /// which gives grey values, once or twice. Not scanned are, as far as they are connected to the
 /// border by faces:
 /// - voxels that are not a number;
-/// - voxels of one value that fills corners of the slices, if what they leave is a convex body that
-///   reaches from one side of the volume to the opposite one, such as the cylinder of a
-///   reconstruction, or one half. Void between grains leaves no convex body.
+/// - voxels of one value that fills corners of the slices, if what they leave is a convex body
+/// whose
+///   ends along an axis are at the border of the volume, or planes, such as the cylinder of a
+///   reconstruction, also with slices added to it. Void between grains leaves no convex body.
 std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution);
 
 /// Returns the grey value half way between the two peaks of a histogram, void and material. Otsu's
