@@ -822,6 +822,8 @@ TEST_F(TiffVolume, AppliesTheShiftThatImageJNotes) {
   const std::unique_ptr<LabelVolume> grey = open_volume(path("a.tif"));
   grey->read_grey_values();
   EXPECT_EQ(grey_value(grey->next_row()[3]), static_cast<float>(made_.labels[3]));
+  stack.text = "ImageJ=1.53t\nimages=3\nslices=3\nc0=-32768.0\nc1=1.0\n";  // cf is then 0
+  expect_made_of(stack, pages(32768));
   // A calibration that is no shift is told, and left.
   stack.text = "ImageJ=1.53t\nimages=3\nslices=3\ncf=0\nc0=3\nc1=0.5\n";
   expect_made_of(stack, pages());
@@ -1041,6 +1043,9 @@ TEST_F(TiffVolume, RefusesTifffilesAxesWithXBeforeY) {
     stack.text = R"({"shape": [3, 5, 7], "axes": ")" + axes + "\"}";
     expect_refused_of(stack, pages(), {axes, ".transpose(" + turn + ")", "\"axes\": \"ZYX\""});
   }
+  // Channels behind x are pages of a few columns.
+  stack.text = R"({"shape": [3, 2, 5, 7], "axes": "ZYXC"})";
+  expect_refused_of(stack, pages(), {"ZYXC", ".transpose(3, 0, 1, 2)", "\"axes\": \"CZYX\""});
   stack.text = R"({"shape": [1, 3, 5, 7], "axes": "TZXY"})";
   expect_refused_of(stack, pages(), {"TZXY", ".transpose(0, 2, 1)", "\"axes\": \"ZYX\""});
 }

@@ -60,14 +60,15 @@ class ImageJText {
   std::string text_;
 };
 
-/// Reads the calibration of the numbers, a straight line c0 + c1 n if cf is 0. ImageJ stores 16
-/// bits with a sign as numbers without one and c0=-32768.
+/// Reads the calibration of the numbers, a straight line c0 + c1 n if cf is 0 or missing, as ImageJ
+/// does. It stores 16 bits with a sign as numbers without one and c0=-32768.
 void read_calibration(const ImageJText& text, TiffLayout& layout) {
-  if (text.value("cf").empty()) return;
+  const std::string kind = text.value("cf");
+  if (kind.empty() && text.value("c0").empty()) return;
   const double least = number_in(text.value("c0")).value_or(0.0);
   const double slope = number_in(text.value("c1")).value_or(1.0);
-  const bool is_shift = text.value("cf") == "0" && slope == 1.0 && least == std::floor(least) &&
-                        std::abs(least) < 1e9;
+  const bool is_shift = (kind.empty() || kind == "0") && slope == 1.0 &&
+                        least == std::floor(least) && std::abs(least) < 1e9;
   if (is_shift && least == 0.0) return;
   if (is_shift) {
     layout.offset = static_cast<std::int64_t>(least);
@@ -151,10 +152,10 @@ std::size_t dimensions_of_page(const std::vector<std::int64_t>& counts, const Ti
   return 0;
 }
 
-/// Refuses axes whose order is not z, y, x: read as if it were, they would give mirror images.
-/// tifffile leaves dimensions of one out as it reads.
+/// Refuses axes whose order is not z, y, x: read as if it were, they would give mirror images, or
+/// channels behind x as voxels. tifffile leaves dimensions of one out as it reads.
 void check_order_of(const std::string& all, const std::vector<std::int64_t>& counts,
-                    const std::string& path) {
+                    const TiffPageShape& page, const std::string& path) {
   std::string letters;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (counts[k] > 1 || all[k] == 'X' || all[k] == 'Y') letters += all[k];
@@ -169,17 +170,17 @@ void check_order_of(const std::string& all, const std::vector<std::int64_t>& cou
   }
   std::string sorted = space;
   std::sort(sorted.rbegin(), sorted.rend());
-  if (space == sorted) return;
+  const bool ends_in_space = letters.empty() || space.find(letters.back()) != std::string::npos;
+  if (space == sorted && (ends_in_space || page.samples > 1)) return;
   for (const char letter : sorted) order += std::to_string(letters.find(letter)) + ", ";
   order.resize(order.size() - 2);
   const std::string name = std::filesystem::path(path).filename().string();
-  refuse_volume(path,
-                "has the axes " + in_quotes(all) +
-                    " in tifffile's text, in another order than z, y, x. Save it in that order in "
-                    "Python: import tifffile; a = tifffile.imread(\"" +
-                    name + "\").transpose(" + order +
-                    "); tifffile.imwrite(\"zyx.tif\", a, metadata={\"axes\": \"" + others + sorted +
-                    "\"})");
+  refuse_volume(path, "has the axes " + in_quotes(all) +
+                          " in tifffile's text. Their order must be z, y, x, with others before "
+                          "these. Save it so in Python: import tifffile; a = tifffile.imread(\"" +
+                          name + "\").transpose(" + order +
+                          "); tifffile.imwrite(\"zyx.tif\", a, metadata={\"axes\": \"" + others +
+                          sorted + "\"})");
 }
 
 /// Reads tifffile's text: {"shape": [2, 24, 28, 36], "axes": "CZYX"}; the last dimensions are the
@@ -211,7 +212,7 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
   if (!letters.empty() && letters.size() != counts.size()) {
     refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
   }
-  check_order_of(letters, counts, path);
+  check_order_of(letters, counts, page, path);
   if (letters.find_first_of("ZCTS") == std::string::npos) refuse_channels_inside(counts, path);
   const std::size_t of_page = dimensions_of_page(counts, page);
   if (of_page == 0) {
