@@ -516,6 +516,8 @@ TEST_F(CommandLine, HelpsWhoSlipsOrBringsAFolder) {
   // Only what the help of the command shows is proposed.
   EXPECT_TRUE(holds(refusal("remesh a.ply b.ply --helpall"), "Did you mean --help-all?"));
   EXPECT_FALSE(holds(refusal("sample a.csv --helpall"), "Did you mean"));
+  EXPECT_TRUE(holds(refusal("remesh a.ply b.ply --faces 9"), "\"wscvt remesh --help-all\" lists"));
+  EXPECT_TRUE(holds(refusal("sample a.csv --faces 9"), "\"wscvt sample --help\" lists all"));
   EXPECT_EQ(run("help batch").output, run("batch --help").output);
   EXPECT_EQ(run("help").output, run("--help").output);
   EXPECT_EQ(run("-v").output, run("--version").output);

@@ -152,7 +152,9 @@ std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) 
       }
       std::string sentence = call;
       sentence.append(" has no option ").append(word).append(".").append(meant_word(word, names));
-      return sentence.append(" \"").append(call).append(" --help\" lists all.");
+      const bool has_more = !command->get_help_all_ptr()->get_group().empty();
+      return sentence.append(" \"").append(call).append(has_more ? " --help-all" : " --help") +
+             "\" lists all.";
     }
     const CLI::Option* output = command->get_option_no_throw("--output");
     const bool is_missing =
