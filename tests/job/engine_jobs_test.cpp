@@ -47,6 +47,7 @@ class EngineJobs : public test::FileFolder {
     const JobEnd end = run_job(make_job(options, path("out")), grains, {1});
     EXPECT_EQ(end.done, 2U);
     EXPECT_EQ(end.failed, 1U);
+    EXPECT_EQ(grains_with_warnings(make_job(options, path("out"))), 1U);
     const std::vector<Row> rows = test::csv_rows(content("out/grains.csv"));
     EXPECT_EQ(rows.size(), 2U);
     return rows;

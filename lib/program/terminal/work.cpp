@@ -174,8 +174,10 @@ JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet
 
 std::string end_line(const GrainJob& job, const JobEnd& end) {
   const JobFolder folder = folders_of(job).front();
-  return std::to_string(end.done) + " grains, " + std::to_string(end.failed) +
-         " failed: " + folder.file(job.tables.front().name, ".csv");
+  const std::size_t warned = grains_with_warnings(job);
+  return format_count(end.done, "grain") + ", " +
+         (warned == 0 ? "" : std::to_string(warned) + " of them with warnings, ") +
+         std::to_string(end.failed) + " failed: " + folder.file(job.tables.front().name, ".csv");
 }
 
 }  // namespace wscvt::program

@@ -112,7 +112,7 @@ JobEnd run_grains(const GrainRun& run, int threads, bool quiet);
 /// Throws WrongCall if files would replace each other, or the folder is of another call.
 JobEnd run_job(const GrainJob& job, GrainSource& grains, int threads, bool quiet);
 
-/// "40 grains, 1 failed: out/grains.csv".
+/// "40 grains, 3 of them with warnings, 1 failed: out/grains.csv".
 std::string end_line(const GrainJob& job, const JobEnd& end);
 
 }  // namespace wscvt::program

@@ -474,4 +474,19 @@ JobEnd run_job(GrainJob job, GrainSource& grains, const JobHost& host) {
   return end;
 }
 
+std::size_t grains_with_warnings(const GrainJob& job) {
+  InputFile file(folders_of(job).front().file(job.tables.front().name, ".csv"));
+  CsvReader reader(file);
+  std::vector<std::string> fields;
+  reader.next(fields);
+  const auto column = std::find(fields.begin(), fields.end(), "warnings") - fields.begin();
+  std::size_t count = 0;
+  while (reader.next(fields)) {
+    if (column < std::distance(fields.begin(), fields.end()) &&
+        !fields[static_cast<std::size_t>(column)].empty())
+      ++count;
+  }
+  return count;
+}
+
 }  // namespace wscvt

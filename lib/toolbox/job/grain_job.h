@@ -82,4 +82,7 @@ struct MadeSample {
 /// Throws MachineRefused if another process works on the same tables. Then throws as run_grains.
 JobEnd run_job(GrainJob job, GrainSource& grains, const JobHost& host);
 
+/// Returns the number of grains with warnings in the first table that a job has written.
+std::size_t grains_with_warnings(const GrainJob& job);
+
 }  // namespace wscvt
