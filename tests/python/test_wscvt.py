@@ -551,6 +551,10 @@ def test_a_batch_of_a_volume_is_that_of_the_program(tmp_path, monkeypatch):
     assert sorted(path.name for path in pathlib.Path("python").iterdir()) == names
     for name in names:
         assert pathlib.Path("python", name).read_bytes() == pathlib.Path("program", name).read_bytes(), name
+    # The module has no library of this format; what it says was done above.
+    pathlib.Path("a.tif").write_bytes(b"II*\0")
+    with pytest.raises(OSError, match="as Python's module always is. Save the volume as .nrrd or .npy"):
+        wscvt.batch(["a.tif"], 60, output="tiff")
 
 
 def test_a_batch_into_a_folder_is_that_of_the_program(scan, tmp_path, monkeypatch):

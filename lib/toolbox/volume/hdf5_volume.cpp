@@ -590,9 +590,7 @@ std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoi
 #else
 
 std::unique_ptr<LabelVolume> open_hdf5(const std::string& path, const VolumeChoice&) {
-  refuse_volume(path,
-                "cannot be read: this program was built without HDF5. Install libhdf5-dev and "
-                "build it again, or save the volume as .nrrd.");
+  refuse_without(path, "HDF5", "libhdf5-dev");
 }
 
 #endif

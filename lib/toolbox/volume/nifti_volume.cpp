@@ -215,9 +215,7 @@ std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeCho
 #else
 
 std::unique_ptr<LabelVolume> open_nifti(const std::string& path, const VolumeChoice&) {
-  refuse_volume(path,
-                "cannot be read: this program was built without libnifti2. Install libnifti2-dev "
-                "and build it again, or save the volume as .nrrd.");
+  refuse_without(path, "libnifti2", "libnifti2-dev");
 }
 
 #endif

@@ -271,8 +271,7 @@ std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoic
 }
 #else
 std::unique_ptr<LabelVolume> open_npz(const std::string& path, const VolumeChoice&) {
-  refuse_volume(path,
-                "cannot be read: this program was built without minizip. Save the array as .npy.");
+  refuse_without(path, "minizip", "libminizip-dev");
 }
 #endif
 

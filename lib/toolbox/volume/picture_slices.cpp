@@ -135,9 +135,7 @@ std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const Vol
 #else
 
 std::unique_ptr<LabelVolume> open_png_slices(const SliceFiles& slices, const VolumeChoice&) {
-  refuse_volume(slices.folder,
-                "cannot be read: this program was built without libpng. Install libpng-dev and "
-                "build it again, or save the volume as .nrrd.");
+  refuse_without(slices.folder, "libpng", "libpng-dev");
 }
 
 #endif

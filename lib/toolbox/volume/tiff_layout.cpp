@@ -536,9 +536,7 @@ void check_ome_slices(const std::string& text, const std::vector<std::string>& p
 namespace {
 
 TiffLayout slice_layout_of_ome(const std::string&, const std::string& path) {
-  refuse_volume(path,
-                "has OME XML, but this program was built without Expat. Install "
-                "libexpat1-dev and build it again, or save the volume as .nrrd.");
+  refuse_without(path, "Expat", "libexpat1-dev");
 }
 
 TiffLayout layout_of_ome(const std::string& xml, std::int64_t, const TiffPageShape&,

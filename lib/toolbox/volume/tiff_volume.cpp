@@ -253,9 +253,7 @@ std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices,
 #else
 
 std::unique_ptr<LabelVolume> open_tiff_slices(const SliceFiles& slices, const VolumeChoice&) {
-  refuse_volume(slices.folder,
-                "cannot be read: this program was built without libtiff. Install libtiff-dev "
-                "and build it again, or save the volume as .nrrd.");
+  refuse_without(slices.folder, "libtiff", "libtiff-dev");
 }
 
 #endif

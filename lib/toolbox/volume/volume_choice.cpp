@@ -27,6 +27,14 @@ void refuse_volume(const std::string& path, const Sentence& what) {
   throw Error(ErrorCode::InputOutput, "\"" + path + "\" " + what);
 }
 
+void refuse_without(const std::string& path, const std::string& library,
+                    const std::string& package) {
+  refuse_volume(path, "cannot be read: this wscvt was built without " + library +
+                          ", as Python's module always is. Save the volume as .nrrd or .npy, or "
+                          "give it to the program wscvt, built with " +
+                          package + ".");
+}
+
 std::int64_t chosen_place(const VolumeAxis& axis, const VolumeChoice& choice,
                           const std::string& path) {
   const bool is_channel = axis.kind == AxisKind::Channel;

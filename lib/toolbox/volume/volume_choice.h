@@ -27,6 +27,11 @@ struct VolumeChoice {
 /// Throws Error(InputOutput) for a file that is no such volume: "path" + what, and what to do.
 [[noreturn]] void refuse_volume(const std::string& path, const Sentence& what);
 
+/// Throws it for a file whose library is not in this build, such as Python's module, which has none
+/// of them. `package`: Debian's, with which the program reads the file.
+[[noreturn]] void refuse_without(const std::string& path, const std::string& library,
+                                 const std::string& package);
+
 /// Kind of a dimension of a file.
 enum class AxisKind { Space, Channel, Frame };
 

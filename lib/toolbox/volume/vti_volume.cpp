@@ -381,9 +381,7 @@ std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoic
 #else
 
 std::unique_ptr<LabelVolume> open_vti(const std::string& path, const VolumeChoice&) {
-  refuse_volume(path,
-                "cannot be read: this program was built without Expat. Install libexpat1-dev "
-                "and build it again, or save the volume as .nrrd.");
+  refuse_without(path, "Expat", "libexpat1-dev");
 }
 
 #endif
