@@ -23,8 +23,8 @@ namespace wscvt {
 void check_fragment_format(const std::string& format) {
   if (format == "urdf" || format == "xml" || format == "shp") return;
   if (is_mesh_format("mesh." + format, MeshUse::Write)) return;
-  refuse("The format of the fragments is \"" + format + "\". Give --format one of " +
-         mesh_extensions(MeshUse::Write) +
+  refuse("The format of the fragments is \"" + format + "\". Give " + mention("format") +
+         " one of " + mesh_extensions(MeshUse::Write) +
          ", or urdf, xml (MuJoCo) or shp (Rockable), without the point.");
 }
 

@@ -56,8 +56,8 @@ std::vector<std::string> sample_files(const std::string& path) {
   }
   refuse("The folder \"" + path +
          "\" has no shape.csv. Give a folder that wscvt batch wrote without " +
-         mention("describe", "none") +
-         ". The call of its parts, without --shard, joins their tables.");
+         mention("describe", "none") + ". The call of its parts, without " + mention("shard") +
+         ", joins their tables.");
 }
 
 SampleTables read_sample(const std::string& path, const Execution& execution) {
