@@ -243,9 +243,10 @@ TEST(SampleStatistics, TheIntervalOfAMeanIsThatOfTheNormalDistribution) {
   EXPECT_NEAR(size.mean.value - size.mean.lower, reach, 0.15 * reach);
 }
 
-/// 602 grains, so that sums have several blocks; some without a value.
+/// 602 grains, so that sums have several blocks; some without a value. Large grains may be light.
 GrainSample gapped_sample() {
   GrainTable table = table_of(uniform(604, 21).array() + 0.5);
+  table.values.col(1).reverseInPlace();
   table.values(603, 3) = table.values(5, 3) = no_value;
   table.values(600, 1) = table.values(17, 1) = no_value;  // no mass: left out
   table.values.col(3).segment(100, 40).setConstant(0.75);
