@@ -89,9 +89,8 @@ ContainerWall container_wall(const std::vector<std::uint8_t>& mask, const VoxelC
 /// which gives grey values, once or twice. Not scanned are, as far as they are connected to the
 /// border by faces:
 /// - voxels that are not a number;
-/// - voxels of one value that fills corners of the slices, if what they leave is a convex body
-/// whose
-///   ends along an axis are at the border of the volume, or planes, such as the cylinder of a
+/// - voxels of one value that fills corners of the slices, if what they leave is a convex body. Its
+///   ends along an axis are at the border of the volume, or planes: the cylinder of a
 ///   reconstruction, also with slices added to it. Void between grains leaves no convex body.
 std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execution);
 
