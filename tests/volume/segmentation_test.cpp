@@ -888,6 +888,24 @@ TEST_F(SegmentationOfTwoMinerals, WhatWasNotScannedIsLeftOutAndCutsGrains) {
     EXPECT_EQ(found.grains.size() + static_cast<std::size_t>(found.cut), 8U) << is_box;
     EXPECT_NEAR(found.threshold, 75.0, 4.0) << is_box;
   }
+  // A box in a constant void is a grain, also with a pore.
+  for (const float pore : {255.0F, 90.0F}) {
+    std::vector<float> values(made_.labels.size(), 0.0F);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t x = k % 56;
+      const std::size_t y = k / 56 % 52;
+      const std::size_t z = k / (56 * 52);
+      const auto is_in = [&](std::size_t margin) {
+        return x > 9 + margin && x < 40 - margin && y > 11 + margin && y < 35 - margin &&
+               z > 7 + margin && z < 30 - margin;
+      };
+      if (is_in(0)) values[k] = is_in(8) ? pore : 255.0F;
+    }
+    write("a.nrrd", "NRRD0004\ntype: float" + header + raw_bytes(values));
+    const Segmentation found = segmented();
+    EXPECT_EQ(found.grains.size(), 1U) << pore;
+    EXPECT_EQ(found.cut, 0) << pore;
+  }
   // One side, and slices at the end, from the middles of two and four balls on.
   for (const bool is_side : {false, true}) {
     std::vector<float> values(made_.labels.begin(), made_.labels.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "toolbox/volume/itk_filters.h"
@@ -96,6 +97,25 @@ bool leaves_a_convex_body(const std::vector<std::uint8_t>& marks, const VoxelCou
   }
   constexpr double most_gaps = 0.02;  // noise that has the value by chance
   return is_cut && static_cast<double>(gaps) < most_gaps * static_cast<double>(left);
+}
+
+/// Whether all voxels of 0 beside voxels of 1, along x, have one value, as those of a box in a made
+/// scan have. A scan ends in void and material.
+bool has_one_value_at_its_sides(LabelVolume& scan, const std::vector<std::uint8_t>& marks,
+                                const Execution& execution) {
+  std::optional<Label> first;
+  bool is_one = true;
+  std::size_t begin = 0;
+  for_each_row(scan, execution, "Reading the volume", [&](const std::vector<Label>& row) {
+    for (std::size_t x = 1; x < row.size(); ++x) {
+      if (marks[begin + x - 1] == marks[begin + x]) continue;
+      const Label value = marks[begin + x] == 0 ? row[x] : row[x - 1];
+      is_one = is_one && value == first.value_or(value);
+      first = value;
+    }
+    begin += row.size();
+  });
+  return is_one && first.has_value();
 }
 
 /// One of the six sides of a volume, and the rays from it, one from each of its voxels.
@@ -328,7 +348,8 @@ std::vector<std::uint8_t> not_scanned(LabelVolume& scan, const Execution& execut
   constexpr std::size_t fewest = 200;  // of so many voxels one
   const std::size_t found = count_of(filled);
   if (found * fewest < filled.size() || found == filled.size() ||
-      !leaves_a_convex_body(filled, counts)) {
+      !leaves_a_convex_body(filled, counts) ||
+      has_one_value_at_its_sides(scan, filled, execution.part(1.0, 1.0))) {
     filled.clear();
   }
   if (count_of(nan) == 0) return filled;
