@@ -42,8 +42,9 @@ class WallPairs {
 };
 
 /// Moves the nodes of intersecting triangles: sheets of free surface away from each other, by
-/// `step`, others to the middle of their neighbours.
-void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double step) {
+/// `step`, others to the middle of their neighbours. Nodes that `stay` do not move.
+void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs,
+                const std::vector<char>& stay, double step) {
   std::vector<Vector3> shift(mesh.points.size(), Vector3::Zero());
   std::vector<char> is_knot(mesh.points.size(), 0);
   for (const auto& [first, second] : pairs) {
@@ -69,6 +70,7 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
   }
   const std::vector<Vector3> before = mesh.points;
   for (std::size_t v = 0; v < before.size(); ++v) {
+    if (stay[v] != 0) continue;
     if (is_knot[v] != 0) {
       Vector3 sum = Vector3::Zero();
       double count = 0.0;
@@ -92,6 +94,17 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs, double s
   }
 }
 
+/// Marks the nodes of walls between grains that have no inner nodes.
+std::vector<char> nodes_of_narrow_walls(const WallMesh& mesh) {
+  const auto is_within = [&](std::int32_t v) { return mesh.places[v] == WallPlace::Wall; };
+  std::vector<char> marked(mesh.points.size(), 0);
+  for (const WallTriangle& t : mesh.triangles) {
+    if (t.outer < 0 || std::any_of(t.corners.begin(), t.corners.end(), is_within)) continue;
+    for (const std::int32_t v : t.corners) marked[v] = 1;
+  }
+  return marked;
+}
+
 }  // namespace
 
 FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, double dense_edge,
@@ -100,12 +113,15 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   constexpr int most_restorations = 5;
   constexpr double step = 0.1;  // of a dense edge; wide against rounding, small against a gap
   WallPairs walls(mesh);
+  // Parted nodes would shrink a narrow wall to a sliver: first others move alone.
+  std::vector<char> stay = nodes_of_narrow_walls(mesh);
   std::vector<char> is_near(mesh.points.size(), 0);
   std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
     for (const std::int32_t v : vertices_of(pairs, walls.triangles())) is_near[v] = 1;
-    part_pairs(mesh, pairs, step * dense_edge);
+    if (2 * k == most_partings) std::fill(stay.begin(), stay.end(), char{0});
+    part_pairs(mesh, pairs, stay, step * dense_edge);
     pairs = walls.near(mesh.points, is_near, execution);
   }
   const std::vector<Vector3> parted = mesh.points;
