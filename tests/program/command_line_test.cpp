@@ -447,6 +447,26 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   EXPECT_TRUE(holds(said, ". Written before that: \"remesh.ply\", \"nodes.csv\".\n"));
 }
 
+TEST_F(CommandLine, ASignalAfterManyFilesNamesFiveOfThem) {
+  const pid_t child =
+      start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100", "-q", "--size",
+            "1", "--node-table", "1.csv", "--node-table", "2.csv", "--node-table", "3.csv",
+            "--node-table", "4.csv", "--node-table", "5.csv", "--node-table", "6.csv", "--sdf",
+            "grid.npy", "--sdf-spacing", "0.005");
+  ASSERT_NE(child, -1);
+  while (!exists("6.csv")) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
+  }
+  ASSERT_EQ(kill(child, SIGTERM), 0);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  const std::string said = content("said.txt");
+  EXPECT_TRUE(holds(said,
+                    "before that: \"remesh.ply\", \"1.csv\", \"2.csv\", \"3.csv\", "
+                    "\"4.csv\", and 2 other files.\n"))
+      << said;
+}
+
 TEST_F(CommandLine, SeveralScansAreABatch) {
   std::filesystem::create_directory(folder_ / "scans");
   const char* const names[] = {"scans/a.ply", "scans/b.ply", "scans/c.ply", "scans/d.ply"};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "program/terminal/work.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -33,10 +34,12 @@ std::string today() {
     sentence += "Nothing was written.";
   } else {
     sentence += "Written before that:";
-    for (const std::string& path : written) {
-      sentence += (&path == &written.front() ? " \"" : ", \"") + path + "\"";
-    }
-    sentence += ".";
+    constexpr std::size_t most = 5;  // a packing has a thousand grains
+    const std::size_t named = std::min(most, written.size());
+    for (std::size_t k = 0; k < named; ++k)
+      sentence += (k == 0 ? " \"" : ", \"") + written[k] + "\"";
+    const std::size_t others = written.size() - named;
+    sentence += others == 0 ? "." : ", and " + format_count(others, "other file") + ".";
   }
   throw Error(ErrorCode::Cancelled, sentence);
 }
