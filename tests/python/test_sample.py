@@ -146,7 +146,7 @@ def test_templates_of_all_kinds_have_their_weights():
         wscvt.templates(matrix, np.ones(10), 11)
 
 
-def test_grown_grains_are_those_of_the_seed():
+def test_grown_grains_are_those_of_the_seed(tmp_path):
     grains = coefficients(9)
     meshes, table = wscvt.grow(grains, 11, nodes=70, degree=6, seed=3, threads=1)
     assert len(meshes) == len(table) == 11
@@ -160,5 +160,9 @@ def test_grown_grains_are_those_of_the_seed():
     assert (table == other).all() and (again[10][0] == meshes[10][0]).all()
     from_meshes, _ = wscvt.grow(meshes, 2, nodes=50, degree=4)
     assert from_meshes[1][0].shape == (50, 3)
+    for k, mesh in enumerate(meshes):
+        wscvt.write_mesh(tmp_path / f"{k:02}.ply", *mesh)
+    from_files, _ = wscvt.grow(tmp_path, 2, nodes=50, degree=4)
+    np.testing.assert_allclose(from_files[1][0], from_meshes[1][0], atol=1e-6)
     with pytest.raises(wscvt.Error, match="at least 8"):
         wscvt.grow(grains[:7], 2, degree=6)

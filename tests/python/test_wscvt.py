@@ -530,6 +530,7 @@ def test_a_batch_is_its_grains_in_order_and_errors_are_results(scan, tmp_path):
     named = {"one": (small.vertices, small.faces), "two": small}
     assert [name for name, _ in wscvt.batch(named, 60)] == ["one", "two"]
     assert [name for name, _ in wscvt.batch([tmp_path / "a.stl", small], nodes=60)] == ["a", "1"]
+    assert [name for name, _ in wscvt.batch(tmp_path / "a.stl", 60)] == ["a"]
     with pytest.raises(TypeError, match="nodse"):
         list(wscvt.batch([small], nodse=60))
 

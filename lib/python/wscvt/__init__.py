@@ -246,8 +246,9 @@ def _batch(scans, nodes, threads, options):
 def _named(scans):
     """Yields the names and meshes of any kind of scans."""
     if isinstance(scans, (str, os.PathLike)):
-        scans = sorted(path for path in pathlib.Path(scans).iterdir()
-                       if _wscvt._is_mesh_file(str(path)))
+        path = pathlib.Path(scans)
+        scans = [path] if path.is_file() else sorted(
+            one for one in path.iterdir() if _wscvt._is_mesh_file(str(one)))
     if hasattr(scans, "items"):
         yield from scans.items()
         return
@@ -669,13 +670,13 @@ def templates(descriptors, masses, count=20, *, seed=1, threads=0, progress=None
 def grow(grains, count, *, nodes=500, degree=20, seed=1, threads=0, progress=None):
     """Makes virtual grains with the statistics of real grains: (meshes, table).
 
-    grains: 8 or more meshes, as for remesh, or arrays of SH coefficients. meshes is a list
-    of `count` pairs (vertices, faces) in their principal frames. table is a structured array with the
-    fields equivalent_diameter, base_grain, nearest_grain, nearest_distance (rms of the radius at
-    radius 1), collage and redraws. Grains are numbered from 0.
+    grains: 8 or more meshes, as for remesh, arrays of SH coefficients, or a folder of meshes. meshes
+    is a list of `count` pairs (vertices, faces) in their principal frames. table is a structured
+    array with the fields equivalent_diameter, base_grain, nearest_grain, nearest_distance (rms of the
+    radius at radius 1), collage and redraws. Grains are numbered from 0.
     """
     real = []
-    for grain in grains:
+    for _, grain in _named(grains):
         if isinstance(grain, numpy.ndarray) and grain.ndim == 1:
             real.append(grain.tolist())
         else:
