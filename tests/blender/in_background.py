@@ -177,6 +177,16 @@ def test_parameters_reach_the_library():
     np.testing.assert_allclose(world(made)[0], expected.vertices, atol=1e-6)
     found = [one.value for one in made.data.attributes["wscvt_distance"].data]
     np.testing.assert_allclose(found, expected.vertex_distances, atol=1e-6)
+    shown = made.data.color_attributes.active_color
+    assert shown.name == "wscvt_distance_colour" and shown.domain == "POINT"
+    for distance, colour in zip(found, shown.data):
+        red, green, blue, _ = colour.color
+        assert abs(green - 1.0 + abs(distance) / np.abs(found).max()) < 1e-5
+        assert red - blue == 0.0 or (red > blue) == (distance > 0.0)
+    # A law sets what README.md's table says.
+    settings.law = "wall"
+    options = settings.options()
+    assert (options["placement"], options["edge_ratio"], options["contact_radius"]) == ("contact-fit", 1.4, 5.0)
 
 
 def test_results_are_saved_with_the_file():

@@ -26,6 +26,27 @@ def test_the_choices_are_those_of_the_library():
             assert report["options"][name] == key
 
 
+def test_laws_have_the_settings_of_the_readme():
+    text = (MESHES.parent / "README.md").read_text()
+    for law, row in {"surface": "the deepest node against the other grain's surface",
+                     "nodes": "the deepest of the nodes of both grains",
+                     "wall": "the deepest node against a flat wall",
+                     "areas": "a sum over nodes, weighted by their areas",
+                     "triangles": "the triangles themselves, or only shape and volume"}.items():
+        placement, edge_ratio, radius = grain.LAWS[law][2:]
+        words = [f"--edge-ratio {edge_ratio}"] if edge_ratio != 1.1 else []
+        words += [f"-p {placement}"] if placement != "fitted" else []
+        words += [f"--contact-radius {radius:g}"] if radius != 0.4 else []
+        options = f"`{' '.join(words)}`" if words else "the defaults"
+        assert f"\n| {row} | {options} |" in text
+
+
+def test_distances_are_red_outside_and_blue_inside():
+    colours = grain.distance_colours(np.array([2.0, 0.0, -1.0]))
+    np.testing.assert_allclose(colours, [[1, 0, 0, 1], [1, 1, 1, 1], [0.5, 0.5, 1, 1]])
+    np.testing.assert_array_equal(grain.distance_colours(np.zeros(2)), np.ones((2, 4)))
+
+
 def test_weights_are_barycentric():
     wanted = np.array([[0.2, 0.3, 0.5], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.6, 0.4]])
     corners = np.repeat(CORNERS, len(wanted), axis=0)

@@ -84,6 +84,10 @@ def add_result(context, scanned, scan, result, linear, wants_distances):
     if wants_distances:
         mesh.attributes.new("wscvt_distance", "FLOAT", "POINT").data.foreach_set(
             "value", result.vertex_distances.astype(np.float32))
+        colours = mesh.color_attributes.new("wscvt_distance_colour", "FLOAT_COLOR", "POINT")
+        colours.data.foreach_set(
+            "color", grain.distance_colours(result.vertex_distances).astype(np.float32).ravel())
+        mesh.color_attributes.active_color = colours
     mesh.update()
 
     made = bpy.data.objects.new(name, mesh)

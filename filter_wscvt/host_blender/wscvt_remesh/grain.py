@@ -14,6 +14,15 @@ PLACEMENTS = (
     ("on-surface", "On the surface", "Nodes on the scan, for contact laws that sum over nodes"),
     ("contact-fit", "Contact fit", "Nodes for contact laws that use the deepest node"),
 )
+# README.md's settings by contact law: placement, edge ratio and contact radius of each.
+LAWS = {
+    "triangles": ("Triangles, or shape only", "The triangles themselves touch", "fitted", 1.1, 0.4),
+    "areas": ("Sum over the nodes", "A sum over nodes, weighted by their areas", "on-surface", 1.1, 0.4),
+    "surface": ("Deepest node, surface", "The deepest node against the other grain's surface",
+                "contact-fit", 1.4, 0.4),
+    "nodes": ("Deepest node of both", "The deepest of the nodes of both grains", "contact-fit", 1.4, 1.3),
+    "wall": ("Deepest node, wall", "The deepest node against a flat wall", "contact-fit", 1.4, 5.0),
+}
 FORM = (  # descriptors in the panel, in this order
     "volume", "area", "sphericity_wadell", "aspect_ratio_inertia",
     "axis_s_inertia", "axis_i_inertia", "axis_l_inertia")
@@ -79,6 +88,14 @@ def corner_weights(points, corners):
     weight_b[flat] = weight_c[flat] = 0.0
     weights = np.clip(np.stack([1.0 - weight_b - weight_c, weight_b, weight_c], axis=1), 0.0, 1.0)
     return weights / weights.sum(axis=1, keepdims=True)
+
+
+def distance_colours(distances):
+    """Returns colours (n, 4) of signed distances (n,): red outside, blue inside, white at 0."""
+    largest = np.abs(distances).max(initial=0.0)
+    shares = distances / largest if largest > 0.0 else distances
+    lost = np.stack([np.maximum(-shares, 0.0), np.abs(shares), np.maximum(shares, 0.0)], axis=1)
+    return np.column_stack([1.0 - lost, np.ones(len(shares))])
 
 
 def properties(report):

@@ -27,7 +27,7 @@ class VIEW3D_PT_grain_settings(GrainPanel, bpy.types.Panel):
             layout.label(text="Esc cancels", icon="CANCEL")
             return
         column = layout.column()
-        for name in settings.NAMES:
+        for name in ("law", *settings.NAMES):
             if name in settings.CHOICES:
                 # A narrow sidebar would cut off a label next to its choice.
                 column.label(text=context.scene.wscvt.bl_rna.properties[name].name + ":")
