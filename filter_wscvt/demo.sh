@@ -69,6 +69,6 @@ else
 fi
 mv -T "$made" "$output"
 echo "The mesh is in $output."
-step "Building the program and the Python module"
-build wscvt_program wscvt_python
+step "Building the program, the Python module and the rest that cmake --install wants"
+build wscvt_program_texts wscvt_python wscvt_c
 echo "The program is build/release/lib/wscvt. filter_wscvt/open_meshlab.sh opens MeshLab with the plugin."
