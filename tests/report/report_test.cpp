@@ -659,7 +659,7 @@ TEST(Report, CsvHasTheSameColumnsForEveryRemeshWithWarningsLast) {
   }
   EXPECT_EQ(header.back(), "warnings");
   EXPECT_EQ(test::csv_records(report_csv(examples()[1])).back().back(),
-            "One, with a comma. Two \"quoted\".");
+            "One, with a comma. | Two \"quoted\".");
 }
 
 // What report.h says is left out of a CSV report, and no more.

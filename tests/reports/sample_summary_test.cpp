@@ -67,7 +67,7 @@ TEST(SampleTable, RowsHaveTheColumnsOfTheHeader) {
   EXPECT_EQ(records[2].size(), records[0].size());
   EXPECT_EQ(records[1][0], "a.ply");
   EXPECT_EQ(records[1][1], "done");
-  EXPECT_EQ(records[1].back(), "Odd. Odder.");
+  EXPECT_EQ(records[1].back(), "Odd. | Odder.");
   EXPECT_EQ(records[2][0], "b, c.ply");
   EXPECT_EQ(records[2][1], "failed");
   EXPECT_EQ(records[2][2], "It is \"broken\".");
@@ -307,17 +307,17 @@ TEST_F(SampleSummaryOfAFile, CountsTheKindsOfWarnings) {
     const std::string name = "g" + number;
     table += sample_row(
         name,
-        k == 7 ? grain_of(1.0)
-        : k < 20
-            ? grain_of(1.0, {"It is not accurate: rms distance 1." + number + " %.", "More."})
-            : grain_of(1.0, {number + ".5 of \"" + name + "\" intersect " + number + ". Odd."}));
+        k == 7   ? grain_of(1.0)
+        : k < 20 ? grain_of(1.0, {"It is not accurate: rms distance 1." + number + " %. Use more."})
+                 : grain_of(1.0, {number + ".5 of \"" + name + "\" intersect " + number + ". Odd.",
+                                  "It is not accurate: rms distance 2 %.", "It is not accurate."}));
   }
   write(table);
   const SampleSummary summary = summarise_table(path_);
   const std::string page = page_of(summary);
   EXPECT_EQ(test::table_named(page, "warning"),
             (test::Rows{{"warning", "grains", "first"},
-                        {"It is not accurate", "19", "g0"},
+                        {"It is not accurate", "29", "g0"},
                         {"N of \"...\" intersect N", "10", "g20"}}));
   const auto kinds = nlohmann::ordered_json::parse(summary_json(summary)).at("warning_kinds");
   ASSERT_EQ(kinds.size(), 2U);

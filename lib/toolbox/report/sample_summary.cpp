@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "toolbox/report/sample_table.h"
@@ -89,36 +90,42 @@ std::string warned_line(const SampleSummary& summary) {
   return line + " and " + std::to_string(summary.with_warnings - named) + " more";
 }
 
-/// Returns what the warnings of one kind have in common: the begin of the first one's text up to a
-/// colon or its end, with "N" for numbers and "..." for what is quoted.
-std::string kind_of(const std::string& warnings) {
+/// Returns what the warnings of one kind have in common: the begin of the text up to a colon or its
+/// end, with "N" for numbers and "..." for what is quoted.
+std::string kind_of(const std::string& warning) {
   std::string kind;
   std::size_t k = 0;
-  while (k < warnings.size() && warnings[k] != ':' && warnings[k] != '.') {
-    if (warnings[k] == '"') {
+  while (k < warning.size() && warning[k] != ':' && warning[k] != '.') {
+    if (warning[k] == '"') {
       kind += "\"...\"";
-      k = std::min(warnings.find('"', k + 1), warnings.size() - 1) + 1;
-    } else if (warnings[k] >= '0' && warnings[k] <= '9') {
+      k = std::min(warning.find('"', k + 1), warning.size() - 1) + 1;
+    } else if (warning[k] >= '0' && warning[k] <= '9') {
       kind += 'N';
-      k = std::min(warnings.find_first_not_of("0123456789.", k), warnings.size());
-      if (warnings[k - 1] == '.') break;  // of the sentence
+      k = std::min(warning.find_first_not_of("0123456789.", k), warning.size());
+      if (warning[k - 1] == '.') break;  // of the sentence
     } else {
-      kind += warnings[k++];
+      kind += warning[k++];
     }
   }
   return kind;
 }
 
-/// Counts a grain's warning with those of its kind.
-void count_kind(const std::string& grain, const std::string& warnings, SampleSummary& summary) {
-  std::vector<WarningKind>& kinds = summary.warning_kinds;
-  const std::string kind = kind_of(warnings);
-  const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                  [&](const WarningKind& one) { return one.kind == kind; });
-  if (found != kinds.end()) {
-    ++found->grains;
-  } else {
-    kinds.push_back({kind, 1, grain});
+/// Counts a grain with each kind of its warnings.
+void count_kinds(const std::string& grain, const std::string& warnings, SampleSummary& summary) {
+  std::set<std::string> counted;
+  for (std::size_t begin = 0; begin < warnings.size();) {
+    const std::size_t end = std::min(warnings.find(sentence_separator, begin), warnings.size());
+    const std::string kind = kind_of(warnings.substr(begin, end - begin));
+    begin = end + sentence_separator.size();
+    if (!counted.insert(kind).second) continue;
+    std::vector<WarningKind>& kinds = summary.warning_kinds;
+    const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const WarningKind& one) { return one.kind == kind; });
+    if (found != kinds.end()) {
+      ++found->grains;
+    } else {
+      kinds.push_back({kind, 1, grain});
+    }
   }
 }
 
@@ -206,7 +213,7 @@ SampleSummary summarise_table(const std::string& path) {
     }
     if (!fields[warnings].empty()) {
       ++summary.with_warnings;
-      count_kind(fields[grain], fields[warnings], summary);
+      count_kinds(fields[grain], fields[warnings], summary);
       if (summary.warned.size() < most_failures_named) {
         summary.warned.push_back({fields[grain], fields[warnings]});
       }

@@ -26,7 +26,7 @@ struct GrainMessage {
   std::string message;
 };
 
-/// Grains whose first warnings are of one kind.
+/// Grains with a warning of one kind. A grain counts with each of its kinds.
 struct WarningKind {
   std::string kind;    ///< what they have in common, such as "The remesh is not accurate"
   std::size_t grains;  ///< their number

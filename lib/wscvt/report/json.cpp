@@ -26,7 +26,8 @@ bool holds_sentences(const Json& list, const std::string& name) {
 std::string joined(const Json& sentences) {
   std::string text;
   for (const Json& sentence : sentences) {
-    text += (text.empty() ? "" : " ") + sentence.get<std::string>();
+    if (!text.empty()) text += sentence_separator;
+    text += sentence.get<std::string>();
   }
   return text;
 }

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,9 @@ namespace wscvt {
 
 /// Members keep the order in which they were added. Numbers that are not finite become null.
 using Json = nlohmann::ordered_json;
+
+/// Between the sentences of a list in a field of a table.
+constexpr std::string_view sentence_separator = " | ";
 
 /// Returns a text, or null if it is empty.
 Json told(const std::string& text);

@@ -58,7 +58,8 @@ std::string report_json(const RemeshResult& result, const ReportOrigin& origin =
 /// lists is a column, named by its path, joined with dots ("options.weighting"). Histories, coarser
 /// levels, node counts tried and names of descriptors are lists and therefore omitted. All reports
 /// have the same columns, so the rows of many remeshes form one table. Numbers read back to the
-/// same bits; null is empty. The last column contains the warnings.
+/// same bits; null is empty. The last column contains the warnings, with " | " between
+/// them.
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = {});
 
 /// Returns an HTML report for reading and printing, one file without references to other files:
