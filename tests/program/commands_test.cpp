@@ -386,6 +386,18 @@ TEST_F(Commands, DescribeMeasuresAsTheLibraryDoes) {
   EXPECT_TRUE(holds(refused.errors, "ball of roundness"));
 }
 
+TEST_F(Commands, DescribeWarnsOfWhatItsLogHas) {
+  write_mesh(test::bent_grain_mesh(test::bent_grain("hook"), 2500), path("hook.ply"));
+  for (const std::string call : {"describe hook.ply", "describe hook.ply scan.ply"}) {
+    const Outcome brief = run(call);
+    EXPECT_EQ(brief.exit_code, 0) << brief.errors;
+    EXPECT_FALSE(holds(brief.output + brief.errors, "Sdq")) << brief.errors;
+    const Outcome whole = run(call + " -v");
+    EXPECT_TRUE(holds(whole.output, "Sdq"));
+    EXPECT_TRUE(holds(whole.errors, "Sdq")) << whole.errors;
+  }
+}
+
 TEST_F(Commands, DescribeTellsWhatTheVoxelsDidIfTheirSizeIsGiven) {
   const IndexedMesh scan = read_mesh(path("scan.ply"));
   const double edge =

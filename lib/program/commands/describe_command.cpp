@@ -99,9 +99,9 @@ void describe_mesh(const DescribeArguments& arguments) {
     add_resolution(measures, *voxel_size, arguments.options, work.execution().part(share, 1.0));
   }
   work.write_reports(arguments.common.reports, measures, origin_of(arguments.grain));
-  for (const Sentence& remark : remarks(measures)) warnings.push_back(remark);
-  work.print(warnings,
-             arguments.common.verbose ? descriptor_lines(measures) : summary_lines(measures));
+  const bool all = arguments.common.verbose;
+  for (const Sentence& remark : remarks(measures, all)) warnings.push_back(remark);
+  work.print(warnings, all ? descriptor_lines(measures) : summary_lines(measures));
 }
 
 void compare_parts(const DescribeArguments& arguments) {

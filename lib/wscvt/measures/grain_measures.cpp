@@ -44,7 +44,7 @@ MeasuredGrain measured(NamedMesh grain, const DetailedOptions& options,
 }
 
 void append_detail_remarks(const std::string& grain, const DetailedDescriptors& descriptors,
-                           std::vector<Sentence>& sentences) {
+                           bool all, std::vector<Sentence>& sentences) {
   const Roundness& roundness = descriptors.roundness;
   if (std::isnan(roundness.roundness)) {
     sentences.push_back(
@@ -56,6 +56,7 @@ void append_detail_remarks(const std::string& grain, const DetailedDescriptors& 
                         " are sharper than its mesh resolves: roundness is below " +
                         format_number(roundness.smallest_radius, 3) + ".");
   }
+  if (!all) return;
   const Roughness& roughness = descriptors.roughness;
   if (!descriptors.has_roughness) {
     sentences.push_back(
@@ -88,7 +89,7 @@ void append_detail_remarks(const std::string& grain, const DetailedDescriptors& 
 }
 
 /// Appends what there is to say of a grain, under a name.
-void append_remarks(const MeasuredGrain& grain, const std::string& name,
+void append_remarks(const MeasuredGrain& grain, const std::string& name, bool all,
                     std::vector<Sentence>& sentences) {
   if (grain.checked.report.components > 1) {
     sentences.push_back("Only the largest of the " +
@@ -118,7 +119,7 @@ void append_remarks(const MeasuredGrain& grain, const std::string& name,
                         " were repaired for the measurement. This changed " +
                         format_percent(mended) + " of its area.");
   }
-  append_detail_remarks(name, grain.descriptors, sentences);
+  append_detail_remarks(name, grain.descriptors, all, sentences);
 }
 
 }  // namespace
@@ -145,17 +146,17 @@ std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measu
                              list_descriptors(measures.grain.descriptors));
 }
 
-std::vector<Sentence> remarks(const GrainMeasures& measures) {
+std::vector<Sentence> remarks(const GrainMeasures& measures, bool all) {
   std::vector<Sentence> sentences;
-  append_remarks(measures.grain, quoted(measures.grain.name), sentences);
+  append_remarks(measures.grain, quoted(measures.grain.name), all, sentences);
   if (!measures.reference) return sentences;
   // What is true of both is said once.
   const std::vector<Sentence> of_grain = sentences;
   const std::string name = quoted(measures.reference->name);
   std::vector<Sentence> of_reference;
   std::vector<Sentence> under_same_name;
-  append_remarks(*measures.reference, name, of_reference);
-  append_remarks(*measures.reference, quoted(measures.grain.name), under_same_name);
+  append_remarks(*measures.reference, name, all, of_reference);
+  append_remarks(*measures.reference, quoted(measures.grain.name), all, under_same_name);
   for (std::size_t k = 0; k < of_reference.size(); ++k) {
     const auto same = std::find(of_grain.begin(), of_grain.end(), under_same_name[k]);
     if (same == of_grain.end()) {

@@ -48,6 +48,7 @@ GrainMeasures measure_grain(NamedMesh grain, std::optional<NamedMesh> reference,
 std::vector<DescriptorComparison> compare_descriptors(const GrainMeasures& measures);
 
 /// Returns warnings about the numbers: parts left out, descriptors that do not exist, overhangs.
-std::vector<Sentence> remarks(const GrainMeasures& measures);
+/// Without `all` those of roughness and Sdq are left out, for a log that does not have these.
+std::vector<Sentence> remarks(const GrainMeasures& measures, bool all = true);
 
 }  // namespace wscvt
