@@ -64,6 +64,8 @@ TEST(Page, OfARemeshHasPicturesHistogramsOptionsAndTheSearch) {
   EXPECT_EQ(count_of(page, " id="), 2U);
   EXPECT_EQ(count_of(page, "\"place\":"), 3U);
   EXPECT_EQ(count_of(page, " data-view="), 3U);
+  // Of two rules the later one counts.
+  EXPECT_LT(page.rfind("color: #444"), page.find("prefers-color-scheme: dark"));
   EXPECT_FALSE(holds(page, ">nan"));
   EXPECT_FALSE(holds(page, "\"nan"));
   EXPECT_FALSE(holds(page, ">-0<"));
