@@ -146,6 +146,9 @@ TEST_F(CommandLine, LogsAreShortAndTellSeconds) {
     return lines_of(outcome.output);
   };
   expect_short("remesh " + sand_ + " remesh.ply -n 100");
+  expect_short("remesh " + sand_ +
+               " remesh.ply -n 100 --report a.html --report a.json --report a.csv" +
+               " --node-table n.csv --node-table n.vtp --sdf s.npy --coefficients b.json");
   expect_short("create ellipsoid e.ply -n 60");
   expect_short("batch " + two + " -o out -n 60,80,100");
   expect_short("batch " + two + " -o one -n 60");

@@ -81,10 +81,10 @@ void Work::print_log(const RemeshResult& result, bool verbose, std::vector<std::
 
 std::vector<std::string> end_of_log(const std::vector<std::string>& written,
                                     std::chrono::steady_clock::time_point begin) {
+  std::string files;
+  for (const std::string& path : written) files += (files.empty() ? "\"" : ", \"") + path + "\"";
   std::vector<std::string> lines;
-  for (const std::string& path : written) {
-    lines.push_back((lines.empty() ? "Files       \"" : "            \"") + path + "\"");
-  }
+  if (!files.empty()) lines.push_back("Files       " + files);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   lines.push_back("Time        " + format_number(seconds.count(), 2) + " s");
   return lines;
