@@ -257,6 +257,24 @@ TEST(Figures, DistancesArePositiveOutsideAndAsLargeAsTheyAre) {
   check(spiked, ball, 1.0);
 }
 
+TEST(Figures, PartsHaveTheirOwnColours) {
+  const IndexedMesh ball = test::sphere(2);
+  const auto picture_of = [&](std::vector<std::uint8_t> parts) {
+    return page_figures({}, {ball, "parts", std::move(parts)}, Execution(1)).pictures[0].content;
+  };
+  const std::size_t faces = ball.triangles.size();
+  const std::string one = picture_of(std::vector<std::uint8_t>(faces, 3));
+  EXPECT_NE(one, picture_of({}));
+  EXPECT_NE(one, picture_of(std::vector<std::uint8_t>(faces, 4)));
+  for (int k = 0; k < 256; ++k) {
+    const Colour colour = part_colour(static_cast<std::uint8_t>(k));
+    const Colour next = part_colour(static_cast<std::uint8_t>(k + 1));
+    int difference = 0;
+    for (std::size_t c = 0; c < 3; ++c) difference += std::abs(colour[c] - next[c]);
+    EXPECT_GT(difference, 100) << k;
+  }
+}
+
 TEST(Figures, ScaleOfDistancesLeavesOutTwoSamplesOfAHundred) {
   const IndexedMesh box = test::box(1.0, 1.0, 1.0);
   const Vector3 middle = mean_of(box.points);

@@ -19,6 +19,7 @@
 #include "wscvt/base/text.h"
 #include "wscvt/report/descriptor_report.h"
 #include "wscvt/report/figures.h"
+#include "wscvt/report/html_document.h"
 
 namespace wscvt {
 namespace {
@@ -82,6 +83,13 @@ TEST(ClumpReport, PageShowsScanClumpDistanceAndEachTable) {
   for (const std::string& line : clump_lines(clump)) {
     EXPECT_TRUE(holds(page, html_escaped(line)));
   }
+  // Each sphere has a colour of its own. Of one sphere all faces have the number 0.
+  EXPECT_EQ(count_of(page, "\"colours\":"), 1U);
+  ClumpResult one = clump;
+  one.spheres.resize(1);
+  const std::string zeros(one.surface.triangles.size(), '\0');
+  EXPECT_FALSE(holds(page, base64(zeros)));
+  EXPECT_TRUE(holds(clump_html(one, {}, Execution(1)), base64(zeros)));
   EXPECT_FALSE(holds(page, "http"));
   EXPECT_FALSE(holds(page, ">nan"));
   EXPECT_EQ(page, clump_html(clump, {"/scans/<grain>.ply", "2026-11-26"}, Execution(2)));

@@ -21,6 +21,7 @@
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text.h"
 #include "wscvt/report/descriptor_report.h"
+#include "wscvt/report/html_document.h"
 
 namespace wscvt {
 namespace {
@@ -69,6 +70,12 @@ TEST(PartsPage, NamesTheSourceTheWarningAndTheNumbers) {
   for (const std::string& line : parts_lines(result)) {
     EXPECT_TRUE(holds(page, html_escaped(line))) << line;
   }
+  // Each part has a colour of its own.
+  std::string numbers;
+  for (std::size_t k = 0; k < 3; ++k) {
+    numbers += std::string(result.parts[k].triangles.size(), static_cast<char>(k));
+  }
+  EXPECT_TRUE(holds(page, "\"colours\":\"" + base64(numbers) + "\""));
 }
 
 TEST(PartsReportJson, HoldsTheMeasures) {

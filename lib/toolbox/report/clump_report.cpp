@@ -2,6 +2,7 @@
 #include "toolbox/report/clump_report.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <utility>
@@ -103,6 +104,23 @@ Rows mass_error_rows(const ClumpResult& clump) {
           row("sum over the spheres", clump.summed.error)};
 }
 
+/// The number of the sphere on whose surface each face of the clump lies, modulo 256.
+std::vector<std::uint8_t> spheres_of_faces(const ClumpResult& clump) {
+  std::vector<std::uint8_t> numbers;
+  for (const Triangle& t : clump.surface.triangles) {
+    const IndexedMesh& mesh = clump.surface;
+    const Vector3 middle = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]) / 3.0;
+    const auto height = [&](const Sphere& sphere) {
+      return (middle - sphere.centre).norm() - sphere.radius;
+    };
+    const auto nearest =
+        std::min_element(clump.spheres.begin(), clump.spheres.end(),
+                         [&](const Sphere& a, const Sphere& b) { return height(a) < height(b); });
+    numbers.push_back(static_cast<std::uint8_t>(nearest - clump.spheres.begin()));
+  }
+  return numbers;
+}
+
 }  // namespace
 
 Json json_of(const ClumpOptions& options) {
@@ -135,7 +153,8 @@ std::string clump_csv(const ClumpResult& clump, const ReportOrigin& origin) {
 std::string clump_html(const ClumpResult& clump, const ReportOrigin& origin,
                        const Execution& execution) {
   const PageFigures figures =
-      page_figures(ShownMesh{clump.repaired_scan, "scan"}, {clump.surface, "clump"}, execution);
+      page_figures(ShownMesh{clump.repaired_scan, "scan"},
+                   {clump.surface, "clump", spheres_of_faces(clump)}, execution);
   const std::string name = std::filesystem::path(origin.source).filename().string();
   HtmlDocument page("Clump" + (name.empty() ? "" : " of " + name) + " with " +
                     counted_spheres(clump));

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "wscvt/base/numbers.h"
 #include "wscvt/base/text_format.h"
@@ -77,8 +79,13 @@ std::string parts_html(const PartsResult& result, const ReportOrigin& origin,
                        const Execution& execution) {
   const IndexedMesh shown = joined(result.parts);
   // Faces between two parts are deep inside the grain, so their distances would use up the scale.
-  const PageFigures figures = page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts"},
-                                           execution, outer_points(result.parts));
+  std::vector<std::uint8_t> numbers;
+  for (std::size_t k = 0; k < result.parts.size(); ++k) {
+    numbers.resize(numbers.size() + result.parts[k].triangles.size(), static_cast<std::uint8_t>(k));
+  }
+  const PageFigures figures =
+      page_figures(ShownMesh{result.grain, "grain"}, {shown, "parts", std::move(numbers)},
+                   execution, outer_points(result.parts));
   const std::string name = std::filesystem::path(origin.source).filename().string();
   HtmlDocument page(format_count(result.parts.size(), "convex part") +
                     (name.empty() ? "" : " of " + name));

@@ -109,8 +109,11 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view) {
 }
 
 Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view, bool with_edges,
-             const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of) {
-  constexpr Colour grey = {200, 200, 200};
+             const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of,
+             const std::vector<std::uint8_t>& parts) {
+  const auto colour_of_face = [&](std::int32_t face) {
+    return parts.empty() ? Colour{200, 200, 200} : part_colour(parts[face]);
+  };
   constexpr double edge_pixels = 1.1;
   const Vector3 light = (view.right.cross(view.up) + 0.6 * view.up - 0.4 * view.right).normalized();
   // The colour of a square of four pixels is taken at its first covered pixel.
@@ -135,7 +138,7 @@ Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view
     const Vector3 normal = doubled_area_normal(mesh, seen.faces[i]).normalized();
     double brightness = 0.35 + 0.65 * std::max(0.0, normal.dot(light));
     if (with_edges && seen.edges[i] < edge_pixels) brightness *= 0.35;
-    const Colour& colour = colour_of ? colours[asked[square_of(i)]] : grey;
+    const Colour colour = colour_of ? colours[asked[square_of(i)]] : colour_of_face(seen.faces[i]);
     for (std::size_t k = 0; k < 3; ++k) {
       picture.pixels[i][k] = static_cast<std::uint8_t>(std::lround(brightness * colour[k]));
     }

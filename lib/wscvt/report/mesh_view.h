@@ -35,9 +35,11 @@ SeenMesh look_at(const IndexedMesh& mesh, const MeshView& view);
 
 /// Draws the visible surface, lit from above the viewer. `colour_of` returns one colour per point
 /// of an array. It is called for squares of 2 x 2 pixels, because halving the picture merges them.
-/// Without `colour_of` all is grey. Edges are drawn on request.
+/// Without `colour_of` each face has the colour of its part, and is grey without parts. Edges are
+/// drawn on request.
 Picture draw(const IndexedMesh& mesh, const SeenMesh& seen, const MeshView& view, bool with_edges,
-             const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of);
+             const std::function<std::vector<Colour>(const std::vector<Vector3>&)>& colour_of,
+             const std::vector<std::uint8_t>& parts = {});
 
 /// Returns a small grey picture of a mesh. `pixels`: width and height, > 0.
 Picture thumbnail_of(const IndexedMesh& mesh, int pixels);

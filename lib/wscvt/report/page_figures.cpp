@@ -103,12 +103,14 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
   }
   execution.report(0.0, page_stage);
   const SeenMesh seen = look_at(shown.mesh, view);
-  const bool with_edges = shown.mesh.triangles.size() <= most_faces_with_edges;
-  figures.pictures.push_back(picture_figure(draw(shown.mesh, seen, view, with_edges, {}),
-                                            figures.pictures.size(), size_text(shown)));
+  const bool with_edges =
+      shown.parts.empty() && shown.mesh.triangles.size() <= most_faces_with_edges;
+  figures.pictures.push_back(
+      picture_figure(draw(shown.mesh, seen, view, with_edges, {}, shown.parts),
+                     figures.pictures.size(), size_text(shown)));
   add_triangle_histograms(figures.distributions, reference, shown, execution);
   if (!reference) {
-    figures.views = turning_views({{shown.mesh, with_edges, {}, 0.0}}, view);
+    figures.views = turning_views({{shown.mesh, with_edges, {}, 0.0, shown.parts}}, view);
     return figures;
   }
 
@@ -137,7 +139,7 @@ PageFigures page_figures(const std::optional<ShownMesh>& reference, const ShownM
        "How far " + shown.name + " lies outside (positive) and inside of " + reference->name +
            ", by area. Values beyond the ends are counted in the end bins."});
   figures.views = turning_views({{reference->mesh, false, {}, 0.0},
-                                 {shown.mesh, with_edges, {}, 0.0},
+                                 {shown.mesh, with_edges, {}, 0.0, shown.parts},
                                  {shown.mesh, false, distances_at, usual}},
                                 view);
   return figures;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace wscvt {
 struct ShownMesh {
   const IndexedMesh& mesh;
   std::string name;
+  /// Of each face the number of its part or sphere, modulo 256, for its colour. Empty: all is grey,
+  /// with edges if the faces are few.
+  std::vector<std::uint8_t> parts = {};
 };
 
 /// Figures of a mesh and of its reference.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wscvt/base/error.h"
+#include "wscvt/base/portable_math.h"
 #include "wscvt/base/text.h"
 #include "wscvt/report/html_document.h"
 
@@ -106,6 +107,15 @@ Colour diverging_colour(double value) {
   Colour colour{};
   for (std::size_t c = 0; c < 3; ++c) {
     colour[c] = static_cast<std::uint8_t>(std::lround(white + share * (end[c] - white)));
+  }
+  return colour;
+}
+
+Colour part_colour(std::uint8_t part) {
+  Colour colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double wave = portable::cos(2.4 * part + 2.1 * static_cast<double>(c));
+    colour[c] = static_cast<std::uint8_t>(std::lround(255.0 * (0.65 + 0.3 * wave)));
   }
   return colour;
 }

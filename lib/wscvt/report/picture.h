@@ -34,4 +34,8 @@ std::string image_element(const Picture& picture, const std::string& description
 /// Returns red for 1, white for 0, blue for -1. Values outside are clamped.
 Colour diverging_colour(double value);
 
+/// Returns the colour of a part or sphere by its number, as view.js has it. Those of the next
+/// numbers differ.
+Colour part_colour(std::uint8_t part);
+
 }  // namespace wscvt

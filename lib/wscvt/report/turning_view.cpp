@@ -106,7 +106,10 @@ std::string mesh_json(const IndexedMesh& mesh, const Vector3& centre, double rad
 /// `mesh`: that of `shown`, or a coarser one.
 std::string view_json(const TurningMesh& shown, const IndexedMesh& mesh) {
   std::string json;
-  if (shown.with_edges && &mesh == &shown.mesh) json += ",\"edges\":true";
+  if (&mesh == &shown.mesh) {
+    if (shown.with_edges) json += ",\"edges\":true";
+    if (!shown.parts.empty()) json += ",\"colours\":" + text_of(shown.parts);
+  }
   if (shown.distances) {
     const int parts = parts_of(mesh.triangles.size());
     std::vector<std::int8_t> steps;

@@ -52,7 +52,7 @@ function turnPictures({turn, meshes, views}) {
     corners: numbersOf(faces, Uint32Array),
   }));
   const shared = {turn, zoom: 1, views: []};
-  for (const {place, mesh, parts, distances, edges} of views) {
+  for (const {place, mesh, parts, distances, edges, colours} of views) {
     const holder = document.querySelector(`[data-view="${place}"]`);
     if (!holder.view) {
       const canvas = document.createElement("canvas");
@@ -74,6 +74,11 @@ function turnPictures({turn, meshes, views}) {
     if (distances) {
       holder.view.show({...divided(shape, parts), limit: 127,
                         distances: Float32Array.from(numbersOf(distances, Int8Array))});
+    } else if (colours) {
+      // Each face has points of its own, three of one colour.
+      const numbers = numbersOf(colours, Uint8Array);
+      holder.view.show({...divided(shape, 1), limit: 1e9,
+                        distances: Float32Array.from({length: 3 * numbers.length}, (_, k) => numbers[Math.floor(k / 3)])});
     } else {
       holder.view.show({...shape, edges: edges ? edgesOf(shape.corners) : null});
     }

@@ -19,7 +19,7 @@ const fragmentShader = `#version 300 es
 precision highp float;
 in vec3 facing;
 in float colour;
-uniform float limit;  // distance of the full colour; 0: grey, below 0: an edge
+uniform float limit;  // distance of the full colour; 0: grey, below 0: an edge, above 1e6: numbers of parts
 out vec4 pixel;
 void main() {
   if (limit < 0.0) {
@@ -27,7 +27,9 @@ void main() {
     return;
   }
   vec3 base = vec3(0.78);
-  if (limit > 0.0) {
+  if (limit > 1e6) {
+    base = 0.65 + 0.3 * cos(2.4 * colour + vec3(0.0, 2.1, 4.2));
+  } else if (limit > 0.0) {
     float share = clamp(colour / limit, -1.0, 1.0);
     vec3 end = share < 0.0 ? vec3(0.12, 0.31, 0.67) : vec3(0.75, 0.12, 0.18);
     base = mix(vec3(0.96), end, abs(share));
