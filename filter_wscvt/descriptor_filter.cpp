@@ -108,7 +108,9 @@ std::vector<LogLine> log_lines(const GrainMeasures& measures, double seconds,
   std::vector<std::string> warnings;
   for (const Sentence& warning : more) warnings.push_back(shown_words(warning));
   for (const Sentence& remark : remarks(measures)) warnings.push_back(shown_words(remark));
-  return as_log(warnings, lines);
+  if (warnings.empty()) return as_log({}, lines, {});
+  return as_log(warnings, lines,
+                {"Look at: " + named_warnings({warnings.begin(), warnings.end()}), true});
 }
 
 }  // namespace wscvt::filter

@@ -330,7 +330,7 @@ FilterOutcome run_filter(FilterId filter, const ParameterValues& values, Layers&
   const ParameterList parameters = filter_with_number(static_cast<int>(filter)).parameters;
   FilterOutcome outcome = run_on(filter, parameters, values, layers, Execution(0, progress));
   if (const std::optional<std::string> remark = remark_on_missing(parameters, values)) {
-    outcome.log.push_back({*remark, true});
+    outcome.log.push_back({"Warning: " + *remark, true});
   }
   return outcome;
 }

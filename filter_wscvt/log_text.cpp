@@ -81,29 +81,14 @@ std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& 
 }
 
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
-                            const std::vector<std::string>& lines, const std::string& verdict) {
+                            const std::vector<std::string>& lines, const LogLine& verdict) {
   constexpr std::size_t longest_line = 4000;
   std::vector<LogLine> log = {{""}};
   for (const std::string& line : lines) log.push_back({line.substr(0, longest_line)});
-  // Warnings are at the end, because MeshLab scrolls its log to the end.
-  std::size_t rows = 0;
   for (const std::string& warning : warnings) {
-    log.push_back({warning.substr(0, longest_line), true});
-    rows += broken(log.back().text + "Warning: ", log_width).size();
+    log.push_back({("Warning: " + warning).substr(0, longest_line), true});
   }
-  if (!verdict.empty()) {
-    log.push_back({verdict});
-    return log;
-  }
-  // On a screen of 1366 x 768 the panel has five rows, and MeshLab itself writes the last two.
-  constexpr std::size_t rows_in_view = 3;
-  if (rows > rows_in_view) {
-    log.push_back(
-        {(warnings.size() == 1 ? std::string("There is 1 warning")
-                               : "There are " + std::to_string(warnings.size()) + " warnings") +
-             " above. Scroll this log up.",
-         true});
-  }
+  if (!verdict.text.empty()) log.push_back({verdict.text.substr(0, longest_line), verdict.warning});
   return log;
 }
 
@@ -139,9 +124,9 @@ bool host_has_window() {
 }
 
 std::string shown_line(const LogLine& line) {
-  std::string text = line.warning ? "Warning: " + line.text : line.text;
-  if (!host_has_window()) return text;
-  return line.warning ? "<font color=\"red\">" + html_line(text) + "</font>" : html_line(text);
+  if (!host_has_window()) return line.text;
+  const std::string html = html_line(line.text);
+  return line.warning ? "<font color=\"red\">" + html + "</font>" : html;
 }
 
 std::string shown_sentence(const std::string& sentence) {

@@ -12,7 +12,7 @@ namespace wscvt::filter {
 /// A line of a log.
 struct LogLine {
   std::string text;
-  bool warning = false;
+  bool warning = false;  ///< or a verdict that names one; red in a window
 };
 
 /// Returns the line of the log with a run's time.
@@ -27,11 +27,11 @@ constexpr std::size_t log_width = 55;
 std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& rows);
 
 /// Returns a log: an empty line, because the host's progress text may lack a line end; the lines;
-/// then the warnings, because MeshLab scrolls to the end; then the verdict, if there is one.
-/// Without a verdict, a last line gives the number of warnings if they need more rows than a small
-/// panel has. Lines are cut slightly before the hosts' limit of 4096 characters.
+/// the warnings; then the verdict, if there is one. MeshLab scrolls to the end and adds two rows of
+/// its own, so that a small panel shows little more than the verdict. Lines are cut slightly before
+/// the hosts' limit of 4096 characters.
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
-                            const std::vector<std::string>& lines, const std::string& verdict = "");
+                            const std::vector<std::string>& lines, const LogLine& verdict);
 
 /// Returns a line for a host that shows its log as HTML. Columns keep their width, and special
 /// characters are escaped.

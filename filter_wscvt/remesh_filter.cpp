@@ -241,7 +241,7 @@ std::vector<LogLine> log_lines(const RemeshResult& result, double seconds,
   std::vector<std::string> warnings;
   // The table above has a row of Sdq.
   for (const Sentence& warning : report_warnings(result)) warnings.push_back(shown_words(warning));
-  return as_log(warnings, lines, verdict_line(result));
+  return as_log(warnings, lines, {verdict_line(result), !result.warnings.empty()});
 }
 
 }  // namespace wscvt::filter

@@ -144,7 +144,7 @@ bool FilterWscvt::applyFilter(QAction* action, MeshDocument& document,
     errorMessage = QString::fromStdString(sentence).toHtmlEscaped();
     // meshlabserver prints only the log, not the message.
     Log(std::string());
-    const LogLine line{sentence, true};
+    const LogLine line{"Warning: " + sentence, true};
     Log(log_level(line), shown_line(line));
     return false;
   }

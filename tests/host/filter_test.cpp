@@ -893,7 +893,9 @@ TEST(Filter, LogOfARemeshEndsByItsVerdict) {
   EXPECT_EQ(good.back().text.rfind("400 nodes, volume exact, area ", 0), 0U) << good.back().text;
   EXPECT_EQ(good.back().text.substr(good.back().text.size() - 6), ": good") << good.back().text;
   const std::vector<filter::LogLine> bad = log_of(10);
-  EXPECT_NE(bad.back().text.find(": see above"), std::string::npos) << bad.back().text;
+  EXPECT_NE(bad.back().text.find(": look at: The remesh is not accurate"), std::string::npos)
+      << bad.back().text;
+  EXPECT_TRUE(bad.back().warning);
   EXPECT_TRUE(bad[bad.size() - 2].warning);
   const auto names_sdq = [](const filter::LogLine& line) {
     return line.text.find("Sdq") != std::string::npos;
@@ -927,23 +929,13 @@ TEST(Filter, TellsWhereTheNodesAreByTheSignOfTheirDistances) {
             result.vertex_distances);
 }
 
-TEST(Filter, LogEndsByTheNumberOfWarningsThatThePanelDoesNotHold) {
-  const auto last = [](const std::vector<std::string>& warnings) {
-    return filter::as_log(warnings, {"a line"}).back();
-  };
-  EXPECT_FALSE(last({}).warning);
-  EXPECT_EQ(last({"Short."}).text, "Short.");
-  EXPECT_EQ(last({"One.", "Two."}).text, "Two.");
-  const std::vector<filter::LogLine> two = filter::as_log({"One.", "Two."}, {"a line"});
-  ASSERT_EQ(two.size(), 4U);
-  for (std::size_t k = 0; k < two.size(); ++k) EXPECT_EQ(two[k].warning, k >= 2) << k;
-  const std::string sentence = "Ten words of text fill a row of this panel. ";
-  EXPECT_EQ(last({sentence + sentence + sentence}).text, sentence + sentence + sentence);
-  const filter::LogLine end = last({sentence + sentence, sentence + sentence});
-  EXPECT_TRUE(end.warning);
-  EXPECT_EQ(end.text, "There are 2 warnings above. Scroll this log up.");
-  EXPECT_EQ(last({sentence + sentence + sentence + sentence + sentence}).text,
-            "There is 1 warning above. Scroll this log up.");
+TEST(Filter, LogHasWarningsAboveTheVerdict) {
+  const std::vector<filter::LogLine> log = filter::as_log({"One.", "Two."}, {"a line"}, {"Good"});
+  ASSERT_EQ(log.size(), 5U);
+  for (std::size_t k = 0; k < log.size(); ++k) EXPECT_EQ(log[k].warning, k == 2 || k == 3) << k;
+  EXPECT_EQ(log[3].text, "Warning: Two.");
+  EXPECT_EQ(log[4].text, "Good");
+  EXPECT_EQ(filter::as_log({}, {"a line"}, {}).size(), 2U);
 }
 
 TEST(Filter, SentencesNameWhatIsOnTheScreen) {
@@ -1356,7 +1348,7 @@ TEST(Filter, LogsWarningsAsWarningsAboveTheVerdict) {
   const auto& lines = loaded.log_entries();
   ASSERT_GE(lines.size(), 3);
   // MeshLab scrolls its log to the end: behind a warning there are warnings and the verdict.
-  EXPECT_TRUE(lines.back().second.contains(": see above"));
+  EXPECT_TRUE(lines.back().second.contains(": look at: The remesh"));
   bool warned = false;
   for (const auto& [level, line] : lines) {
     if (line == lines.back().second) continue;
@@ -1441,8 +1433,8 @@ TEST(DescriptorFilter, LogIsNoWiderThanThePanel) {
     const QStringList lines = loaded.log();
     EXPECT_GT(lines.size(), 40);
     for (const QString& line : lines) {
-      // Warnings and the layers are sentences, which the panel breaks.
-      if (line.contains(QRegularExpression("^(Warning|Layer|Reference)\\b"))) continue;
+      // Warnings, their names and the layers are sentences, which the panel breaks.
+      if (line.contains(QRegularExpression("^(Warning|Look at|Layer|Reference)\\b"))) continue;
       EXPECT_LE(line.size(), static_cast<int>(filter::log_width)) << line.toStdString();
     }
   }

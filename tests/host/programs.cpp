@@ -56,6 +56,7 @@ QProcessEnvironment environment_on(const VirtualDisplay& display, const QString&
   file.write(
       ("<fontconfig><dir>/usr/share/fonts/truetype/dejavu</dir><cachedir>" + home +
        "/fonts</cachedir>"
+       "<alias><family>courier</family><prefer><family>DejaVu Sans Mono</family></prefer></alias>"
        "<alias><family>sans-serif</family><prefer><family>DejaVu Sans</family></prefer></alias>"
        "<alias><family>monospace</family><prefer><family>DejaVu Sans Mono</family></prefer></alias>"
        "</fontconfig>\n")

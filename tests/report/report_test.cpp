@@ -827,10 +827,17 @@ TEST(ReportSummary, VerdictIsGoodWithoutWarningsOnly) {
   const std::string good = verdict_line(result);
   EXPECT_EQ(good.rfind("300 nodes, volume exact, area ", 0), 0U) << good;
   EXPECT_EQ(good.substr(good.size() - 20), " of the radius: good") << good;
-  result.warnings = {Sentence("One."), Sentence("Two.")};
-  const std::string doubtful = verdict_line(result);
-  EXPECT_EQ(doubtful.substr(doubtful.size() - 25), " of the radius: see above");
-  EXPECT_LE(doubtful.size(), 80U) << doubtful;
+  EXPECT_LE(good.size(), 80U) << good;
+  const auto end_with = [&](std::vector<Sentence> warnings) {
+    result.warnings = std::move(warnings);
+    const std::string line = verdict_line(result);
+    EXPECT_EQ(line.substr(0, good.size() - 4), good.substr(0, good.size() - 4));
+    return line.substr(good.size() - 4);
+  };
+  EXPECT_EQ(end_with({"One."}), "look at: One");
+  EXPECT_EQ(end_with({"One is 0.5 %: odd.", "Two."}), "look at: One is 0.5 % and 1 more");
+  EXPECT_EQ(end_with({"It has 2. Odd: odd.", "Two.", "Three."}), "look at: It has 2 and 2 more");
+  EXPECT_EQ(end_with({"It stopped, because of this: that."}), "look at: It stopped");
 }
 
 }  // namespace

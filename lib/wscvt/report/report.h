@@ -44,9 +44,13 @@ std::vector<std::string> result_lines(const RemeshResult& result);
 /// if nothing was repaired. Without warnings.
 std::vector<std::string> summary_lines(const RemeshResult& result);
 
+/// Returns what the first of one or more warnings begins with, up to a comma, a colon or its end,
+/// and how many follow: "The remesh is not accurate and 2 more".
+std::string named_warnings(const std::vector<Sentence>& warnings);
+
 /// Returns one line for the end of a log: "1000 nodes, volume exact, area -0.323 %, rms 0.332 % of
-/// the radius: good", or "...: see above" if there are warnings. At most 80 columns for N up to a
-/// million.
+/// the radius: good", or "...: look at: The remesh is not accurate" if there are
+/// warnings, as named_warnings says. Up to "good" at most 80 columns for N up to a million.
 std::string verdict_line(const RemeshResult& result);
 
 /// Returns a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have their

@@ -325,12 +325,23 @@ std::vector<std::string> report_lines(const RemeshResult& result) {
   return lines;
 }
 
+std::string named_warnings(const std::vector<Sentence>& warnings) {
+  const std::string& first = warnings.front().text();
+  std::size_t end = first.size();
+  for (const char* mark : {", ", ": ", ". "}) end = std::min(end, first.find(mark));
+  std::string name = first.substr(0, end);
+  if (name.back() == '.') name.pop_back();
+  if (warnings.size() == 1) return name;
+  return name + " and " + std::to_string(warnings.size() - 1) + " more";
+}
+
 std::string verdict_line(const RemeshResult& result) {
   const std::vector<std::string> errors = descriptor_errors(result);
   const std::string measured = std::to_string(result.mesh.points.size()) + " nodes, " + errors[0] +
                                ", " + errors[1] + ", rms " +
                                percent_of_radius(result, result.rms_distance) + " of the radius: ";
-  return measured + (result.warnings.empty() ? "good" : "see above");
+  return measured +
+         (result.warnings.empty() ? "good" : "look at: " + named_warnings(result.warnings));
 }
 
 std::vector<std::string> summary_lines(const RemeshResult& result) {
