@@ -317,6 +317,9 @@ ALL = [
     Advice("sample of meshes", scans(), "sample scans", "(wscvt) (batch scans -o) FOLDER", "\\2 out -n 60", "2 grains"),
     Advice("sample without shapes", together(scans(), lambda folder: (folder / "out").mkdir()), "sample out",
            "that (wscvt) (batch) wrote without --describe none", "\\2 scans -o other -n 60", "2 grains"),
+    Advice("parts of a sample", together(scans(), *[lambda folder, k=k: run(folder, "batch scans -o out -n 60 --shard %d/2" % k)
+                                                    for k in (1, 2)]),
+           "sample out", "The call of its parts, without (--shard), joins", "batch scans -o out -n 60", "2 grains"),
     Advice("size", text("t.csv", "grain,volume\na,1\nb,2\nc,3\n"), "sample t.csv --diameter feret-min", "Use (--diameter [a-z-]+)",
            "sample t.csv \\1", "grains"),
     Advice("descriptors", text("t.csv", "grain,file,volume,convexity,sphericity_wadell\na,a.ply,1,.9,.7\nb,b.ply,2,.9,.8\n"),
@@ -338,9 +341,9 @@ ALL = [
     # Measures
     Advice("steps of voxels", together(npy("v.npy", lambda: balls(TWO[1:])), extracted("s.ply", lambda: balls(TWO[1:]), 0)),
            "describe s.ply", "steps of voxels.*(wscvt) (extract)", "\\2 v.npy out", "1 label: 1 written"),
-    Advice("larger cut-off", ellipsoid("s.ply", (1.0, 0.9, 0.8), 200), "describe s.ply", "larger (--roughness-cutoff)",
+    Advice("larger cut-off", ellipsoid("s.ply", (1.0, 0.9, 0.8), 200), "describe s.ply -v", "larger (--roughness-cutoff)",
            "describe s.ply -v \\1 2", "roughness Sq", gone="too long to measure roughness"),
-    Advice("smaller cut-off", ellipsoid("s.ply", (1.0, 0.5, 0.4), 20000), "describe s.ply", "smaller (--roughness-cutoff)",
+    Advice("smaller cut-off", ellipsoid("s.ply", (1.0, 0.5, 0.4), 20000), "describe s.ply -v", "smaller (--roughness-cutoff)",
            "describe s.ply -v \\1 0.1", "roughness Sq"),
     Advice("grid", ellipsoid("s.ply", (1.0, 0.9, 0.8)), "s.ply r.ply -n 60 --sdf g.npy --sdf-spacing 0.0001",
            "Give ([0-9.]+) or more, or 0", "s.ply r.ply -n 60 --sdf g.npy --sdf-spacing 0", "60 nodes"),

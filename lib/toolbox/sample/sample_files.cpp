@@ -48,8 +48,13 @@ std::vector<std::string> sample_files(const std::string& path) {
   }
   std::sort(tables.begin(), tables.end());
   if (!tables.empty()) return tables;
+  bool has_meshes = false;
+  bool is_of_batch = false;  // all of it, or parts: call.json, call-1-of-2.json
   for (const auto& entry : fs::directory_iterator(path, error)) {
-    if (!is_mesh_file(entry.path().string())) continue;
+    has_meshes = has_meshes || is_mesh_file(entry.path().string());
+    is_of_batch = is_of_batch || entry.path().filename().string().rfind("call", 0) == 0;
+  }
+  if (has_meshes && !is_of_batch) {
     refuse("The folder \"" + path +
            "\" has meshes but no shape.csv. Measure them first: wscvt batch " + path +
            " -o FOLDER. Then give that folder.");
