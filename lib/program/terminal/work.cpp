@@ -36,8 +36,9 @@ std::string today() {
     sentence += "Written before that:";
     constexpr std::size_t most = 5;  // a packing has a thousand grains
     const std::size_t named = std::min(most, written.size());
-    for (std::size_t k = 0; k < named; ++k)
+    for (std::size_t k = 0; k < named; ++k) {
       sentence += (k == 0 ? " \"" : ", \"") + written[k] + "\"";
+    }
     const std::size_t others = written.size() - named;
     sentence += others == 0 ? "." : ", and " + format_count(others, "other file") + ".";
   }

@@ -482,9 +482,8 @@ std::size_t grains_with_warnings(const GrainJob& job) {
   const auto column = std::find(fields.begin(), fields.end(), "warnings") - fields.begin();
   std::size_t count = 0;
   while (reader.next(fields)) {
-    if (column < std::distance(fields.begin(), fields.end()) &&
-        !fields[static_cast<std::size_t>(column)].empty())
-      ++count;
+    const bool is_there = column < std::distance(fields.begin(), fields.end());
+    if (is_there && !fields[static_cast<std::size_t>(column)].empty()) ++count;
   }
   return count;
 }
