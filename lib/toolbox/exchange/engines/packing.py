@@ -26,7 +26,11 @@ import shutil
 import subprocess
 import sys
 
-import numpy as np
+try:
+    import numpy as np
+except ImportError:
+    sys.exit("This Python has no NumPy. Install it, or start run.py by the Python that has it: /usr/bin/python3 in Debian, "
+             "with the package python3-numpy.")
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 
