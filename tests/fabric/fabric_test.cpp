@@ -202,6 +202,8 @@ TEST_F(FabricOfAFile, HasNoContactAcrossAGapThatLabelsClose) {
       EXPECT_EQ(fabric.grains[contact.first].contacts, 0U);
     }
     EXPECT_EQ(fabric.contact_count, 0U);
+    EXPECT_EQ(fabric.whole_grains, 2U);
+    EXPECT_EQ(fabric.coordination, 0.0);
     EXPECT_EQ(fabric.contact_area, 0.0);
     EXPECT_EQ(fabric.contact_area_uncertainty, 0.0);
   }
