@@ -17,6 +17,7 @@
 #include "support/expect_error.h"
 #include "support/flat_json.h"
 #include "support/holds.h"
+#include "support/msh_volumes.h"
 #include "support/seeds.h"
 #include "support/test_shapes.h"
 #include "toolbox/conforming/conforming_files.h"
@@ -24,6 +25,7 @@
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
+#include "wscvt/surface/self_intersections.h"
 
 namespace wscvt {
 namespace {
@@ -435,18 +437,20 @@ TEST(ConformingGrains, ALabelThatTouchesItselfInAnEdgeIsRepaired) {
 }
 
 TEST(ConformingGrains, PiecesAreLeftOutAndPoresFilled) {
-  const ConformingGrains result = conformed(voxels_of(40,
-                                                      [](const Vector3& p) {
-                                                        const double d =
-                                                            (p - Vector3::Constant(20.0)).norm();
-                                                        if (p.maxCoeff() < 4.0) return 0;
-                                                        return d < 3.0 || d > 14.0 ? -1 : 0;
-                                                      }),
-                                            1);
+  const GrainVoxels voxels = voxels_of(40, [](const Vector3& p) {
+    const double d = (p - Vector3::Constant(20.0)).norm();
+    if (p.maxCoeff() < 4.0) return 0;
+    return d < 3.0 || d > 14.0 ? -1 : 0;
+  });
+  const auto own = std::count(voxels.grain.begin(), voxels.grain.end(), 0);
+  const ConformingGrains result = conformed(voxels, 1);
   expect_conforming(result);
   EXPECT_EQ(result.grains[0].pieces, 2U);
   EXPECT_EQ(result.grains[0].left_out, 64);
   EXPECT_GT(result.grains[0].pore_voxels, 80);  // a ball of radius 3 has 113
+  // The share is of the label's own voxels, without the pores.
+  EXPECT_DOUBLE_EQ(left_out(result), 64.0 / static_cast<double>(own));
+  EXPECT_EQ(result.flattest, 0) << "the only grain, though all triangles are at its outside";
 }
 
 // A grain between others that is a voxel thick in its middle, which goes to these.
@@ -660,6 +664,36 @@ TEST(ConformingGrains, TablesHaveTheLabelsAndNumbersOfWallsAndGrains) {
   }
 }
 
+TEST(ConformingGrains, SurfacesOfGmshBoundTheVolumeOfEachGrain) {
+  const ConformingGrains result = conformed(random_cells(4, 40, 9, true), 9);
+  const std::vector<Label> labels = {2, 3, 5, 7, 11, 13, 17, 19, 23};
+  const std::vector<test::MshVolume> read = test::msh_volumes(walls_msh(result, labels));
+  ASSERT_EQ(read.size(), 9U);
+  for (std::size_t g = 0; g < 9; ++g) {
+    EXPECT_NEAR(read[g].bounded / result.grains[g].volume, 1.0, 1e-9) << g;
+  }
+}
+
+TEST(ConformingGrains, BothGrainsOfAnIntersectingTriangleAreNamed) {
+  const ConformingGrains result =
+      conformed(random_cells(1, 40, 14, false, Between::WedgesOfPores), 14, 8.0);
+  ASSERT_GT(result.intersections, 0U);
+  IndexedMesh mesh;
+  mesh.points = result.points;
+  for (const WallTriangle& t : result.triangles) mesh.triangles.push_back(t.corners);
+  std::vector<bool> intersects(result.grains.size(), false);
+  for (const auto& [a, b] : self_intersections(mesh, Execution(1))) {
+    for (const std::int32_t t : {a, b}) {
+      const WallTriangle& wall = result.triangles[static_cast<std::size_t>(t)];
+      intersects[static_cast<std::size_t>(wall.inner)] = true;
+      if (wall.outer >= 0) intersects[static_cast<std::size_t>(wall.outer)] = true;
+    }
+  }
+  for (std::size_t g = 0; g < intersects.size(); ++g) {
+    EXPECT_EQ(result.grains[g].intersects, intersects[g]) << g;
+  }
+}
+
 TEST(ConformingGrains, SameBytesAtAnyNumberOfThreads) {
   const std::vector<Label> labels = {1, 2, 3, 4, 5, 6, 7, 8};
   const ConformingGrains one = conformed(random_cells(5, 40, 8, true), 8, 2.5, 1);
@@ -801,6 +835,21 @@ TEST(ConformingGrains, RefusesFragmentsWithoutEnd) {
   options.edge_length = 0.0;
   options.nodes = 1000000;
   EXPECT_TRUE(holds(refused(), "Give fewer nodes."));
+  // Of a fragment's n nodes its closed mesh has twice as many triangles; those of walls are of two.
+  double wanted = 0.0;
+  for (const Fragment& one : fragments.list) {
+    const double all = one.surface_area + one.wall_area;
+    wanted += 2.0 * options.nodes * one.surface_area / all;
+  }
+  for (const CommonWall& wall : fragments.contacts) {
+    const auto triangle = [&](std::int32_t k) {
+      const Fragment& one = fragments.list[static_cast<std::size_t>(k)];
+      return (one.surface_area + one.wall_area) / (2.0 * options.nodes);
+    };
+    wanted += wall.area / std::sqrt(triangle(wall.first) * triangle(wall.second));
+  }
+  EXPECT_TRUE(holds(refused(), "about " + format_number(1e-6 * wanted, 3) + " million triangles"))
+      << refused() << wanted;
 }
 
 TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
@@ -818,6 +867,20 @@ TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
   });
   EXPECT_TRUE(holds(small, "Grain 0 has only 8 voxels"));
   EXPECT_TRUE(holds(small, "--smallest"));
+  // Three hollow cubes of 26 voxels: the advice counts those of the label, not the pores.
+  const std::string hollow = test::refusal(ErrorCode::InvalidInput, [] {
+    conformed(voxels_of(20,
+                        [](const Vector3& p) {
+                          for (const double at : {3.5, 9.5, 15.5}) {
+                            const double away = (p - Vector3::Constant(at)).cwiseAbs().maxCoeff();
+                            if (away < 1.1) return away < 0.1 ? -1 : 0;
+                          }
+                          return -1;
+                        }),
+              1);
+  });
+  EXPECT_TRUE(holds(hollow, "only 27 voxels")) << hollow;
+  EXPECT_TRUE(holds(hollow, "--smallest 79")) << hollow;
   EXPECT_TRUE(holds(refused(2, 0.5), "below a voxel's edge"));
   EXPECT_NE(refused(2, -1.0), "");
 }

@@ -119,6 +119,10 @@ TEST_F(PartFiles, OfASmallGrainWarnOfMujocosLimit) {
   EXPECT_TRUE(holds(told, "moment of inertia is 2e-15"));
   EXPECT_TRUE(holds(told, "multiply the unit by 1000, "));
   EXPECT_TRUE(holds(told, "2e-06"));
+  // 2e-19 times the square of 1000 is enough.
+  mass.principal_moments *= 1e-4;
+  const std::string less = inertia_warning("grain.xml", mass, 2000.0, "the unit").text();
+  EXPECT_TRUE(holds(less, "multiply the unit by 1000, ")) << less;
 }
 
 TEST_F(PartFiles, RefuseOtherEndings) {

@@ -155,6 +155,22 @@ TEST(RockableShape, TellsWhatRoundingABoxDoes) {
   EXPECT_NEAR(made.rms_percent * of_grain, 100.0 * rms, 10.0 * rms);
 }
 
+/// Distances are means over the surface, however many vertices it has.
+TEST(RockableShape, TellsTheSameOfABoxOfSmallTriangles) {
+  const IndexedMesh mesh = test::box(3, 2, 1);
+  const MassProperties mass = mass_properties(describe_shape(mesh, Execution(1)));
+  const Rounding plain = rockable_shape("box", mesh, mass).rounding;
+  const Rounding fine = rockable_shape("box", test::subdivided(mesh, 5), mass).rounding;
+  ASSERT_EQ(fine.radius_percent, plain.radius_percent);
+  // Both are sampled, with some 500 of 5,000 places near an edge.
+  EXPECT_NEAR(fine.rms_percent / plain.rms_percent, 1.0, 0.1);
+  // A gap counts along the face's normal: from an edge to the radius, the integral over s of
+  // (r - s) times the cosine r / s.
+  const double r = fine.radius;
+  const double loss = 100.0 * 2.0 * (1.0 - std::asinh(1.0)) * r * r * 24.0 / 6.0;
+  EXPECT_NEAR(fine.volume_percent / -loss, 1.0, 0.1);
+}
+
 /// The radius is the largest of those that err by at most 0.1 %: the finer the mesh of a ball, the
 /// larger. A needle is rounded by the smallest.
 TEST(RockableShape, ChoosesTheLargestRadiusOfSmallError) {
