@@ -12,6 +12,7 @@
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/convex/cut_choice.h"
 #include "toolbox/convex/cut_tree.h"
+#include "toolbox/convex/face_cut.h"
 #include "toolbox/convex/signed_grid.h"
 #include "wscvt/base/triangle_geometry.h"
 
@@ -148,6 +149,41 @@ TEST(BodyCut, RefusesAnOpenMesh) {
   IndexedMesh open = test::box(1.0, 2.0, 3.0);
   open.triangles.pop_back();
   EXPECT_ERROR(CutSolid{open}, InvalidInput);
+}
+
+// Squares in squares: a frame, and another within its hole.
+TEST(FaceCut, AHoleBelongsToTheSmallestLoopAboutIt) {
+  std::vector<Vector3> points;
+  FaceEdges edges;
+  for (const double half : {8.0, 6.0, 3.0, 1.0}) {
+    const auto first = static_cast<std::int32_t>(points.size());
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+      points.emplace_back(half * x, half * y, 0.5);
+    }
+    const bool is_hole = half == 6.0 || half == 1.0;
+    for (std::int32_t k = 0; k < 4; ++k) {
+      edges.push_back({first + (is_hole ? (k + 1) % 4 : k), first + (is_hole ? k : (k + 1) % 4)});
+    }
+  }
+  std::vector<double> areas;
+  for (const FaceEdges& face : faces_of(points, edges, Vector3::UnitZ())) {
+    areas.push_back(0.5 * doubled_area(points, face).z());
+  }
+  EXPECT_EQ(areas, (std::vector<double>{256.0 - 144.0, 36.0 - 4.0}));
+}
+
+// A piece that fills its hull within the tolerance needs no cut.
+TEST(CutTree, PiecesWithinTheToleranceStayWhole) {
+  const IndexedMesh body = test::torus(1.0, 0.35, 8);
+  const SignedGrid grid(body, 30, Execution(1));
+  const HullCost narrow(grid, 0.01);
+  CutTree cut(body, Eigen::Matrix3d::Identity(), narrow);
+  cut.cut(4, Execution(1));
+  EXPECT_GT(cut.groups().size(), 1U);
+  const HullCost wide(grid, 2.0);
+  CutTree whole(body, Eigen::Matrix3d::Identity(), wide);
+  whole.cut(4, Execution(1));
+  EXPECT_EQ(whole.groups().size(), 1U);
 }
 
 TEST(CutTree, MovedPlanesCostLessAndTheirPiecesFillTheGrain) {

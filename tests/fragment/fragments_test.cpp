@@ -231,6 +231,33 @@ TEST(Fragments, HaveTheGivenVolumes) {
   }
 }
 
+// In a file in micrometres as in one in metres.
+TEST(Fragments, OfGivenVolumesGrowWithTheGrain) {
+  const IndexedMesh grain = test::lumpy(3);
+  FragmentOptions options;
+  options.count = 6;
+  options.volumes = {1.0, 2.0, 3.0, 5.0, 8.0, 13.0};
+  const Fragments plain = fragment_grain(grain, options, Execution(1));
+  constexpr double scale = 1024.0;
+  const Fragments large =
+      fragment_grain(test::moved(grain, scale, Vector3::Zero()), options, Execution(1));
+  for (std::size_t k = 0; k < 6; ++k) {
+    const MassProperties& mass = large.list[k].mass;
+    EXPECT_NEAR(mass.volume / plain.list[k].mass.volume / (scale * scale * scale), 1.0, 1e-9) << k;
+    EXPECT_LT((mass.centroid / scale - plain.list[k].mass.centroid).norm(), 1e-9) << k;
+  }
+}
+
+TEST(Fragments, MeasuredAgainAreTheSame) {
+  Fragments again = divided(test::lumpy(2), 5);
+  const Fragments once = again;
+  measure_fragments(again, Execution(1));
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_EQ(again.list[k].surface_area, once.list[k].surface_area);
+    EXPECT_EQ(again.list[k].wall_area, once.list[k].wall_area);
+  }
+}
+
 TEST(Fragments, AreSmallerNearChosenPoints) {
   const IndexedMesh grain = test::sphere(4);
   FragmentOptions options;
