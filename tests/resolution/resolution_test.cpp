@@ -14,6 +14,7 @@
 #include "support/holds.h"
 #include "support/seeds.h"
 #include "support/segmented_scan.h"
+#include "toolbox/resolution/descriptor_biases.h"
 #include "toolbox/resolution/mesh_voxels.h"
 #include "wscvt/base/numbers.h"
 #include "wscvt/measures/descriptor_table.h"
@@ -264,6 +265,32 @@ TEST(Resolution, RoundnessOfFewVoxelsAndRoughnessAreNotResolved) {
   const std::string sentence = resolution_sentence(few);
   EXPECT_TRUE(test::holds(sentence, "Not resolved: roundness, Sq."));
   EXPECT_TRUE(test::holds(sentence, "12 voxels across"));
+}
+
+// The measured parts of an interval (descriptor_biases.h), put together as their comments say.
+TEST(Resolution, IntervalsAreMadeOfChangeScatterAndVoxels) {
+  const IndexedMesh body = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  const Resolution found = resolution_of(body, described(body).equivalent_diameter / 16.0, pose(1));
+  std::size_t scattered = 0;
+  for (const ResolvedValue& row : found.rows) {
+    if (!row.is_resolved()) continue;
+    const DescriptorBias& bias = *bias_of(row.key);
+    const double change = std::abs(row.value - row.again);
+    if (row.key == "area") {
+      EXPECT_NEAR(row.scatter, change * 10.0 / found.voxels_across, 1e-9 * row.value);
+    }
+    const double below = bias.share * change + bias.scatters * row.scatter +
+                         bias.rest * std::abs(row.value) / found.voxels_across;
+    if (bias.scatters * row.scatter > 1e-3 * below) ++scattered;
+    const double rounding = 1e-9 * std::abs(row.value);
+    if (row.low > 0.0) {
+      EXPECT_NEAR(row.corrected - row.low, below, rounding) << row.key;
+    }
+    if (row.high < bias.most && row.corrected > 0.0) {
+      EXPECT_NEAR(row.high - row.corrected, bias.above * below, rounding) << row.key;
+    }
+  }
+  EXPECT_GT(scattered, 3U);
 }
 
 TEST(Resolution, KeepsTheValuesAndTheirOrder) {
