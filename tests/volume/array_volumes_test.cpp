@@ -209,7 +209,8 @@ struct Nifti {
   int version = 1;
   bool big_endian = false;
   std::vector<int> dimensions = {3, 7, 5, 3};
-  int type = 512;  // uint16
+  unsigned unit = 3;  ///< metres, millimetres, micrometres from 1
+  int type = 512;     // uint16
   int bits = 16;
   double slope = 0.0;
   double more = 0.0;  ///< added to a scaled voxel
@@ -256,7 +257,7 @@ struct Nifti {
     }
     put_real(version == 1 ? 112 : 176, slope);
     put_real(version == 1 ? 116 : 184, more);
-    put(version == 1 ? 123 : 500, version == 1 ? 1 : 4, 3);  // micrometres
+    put(version == 1 ? 123 : 500, version == 1 ? 1 : 4, unit);
     put(version == 1 ? 254 : 348, version == 1 ? 2 : 4, static_cast<std::uint64_t>(sform));
     // x of the lattice runs along -y, y along x.
     const double rows[3][4] = {{0, 0.25, 0, 10}, {-0.5, 0, 0, 20}, {0, 0, 2, 30}};
@@ -313,6 +314,15 @@ TEST_F(ArrayVolumes, TakesSinglePrecisionForTheDecimalsItMeans) {
   nifti.scale = 0.3;
   write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>());
   EXPECT_EQ(geometry("a.nii").axes(0, 0), 0.3 * 0.5);
+}
+
+TEST_F(ArrayVolumes, NiftiHasTheUnitOfItsCode) {
+  Nifti nifti;
+  for (const char* unit : {"", "m", "mm", "um"}) {
+    nifti.unit = unit[0] == 0 ? 0 : unit[1] == 0 ? 1 : unit[0] == 'm' ? 2 : 3;
+    write("a.nii", nifti.bytes() + made_.bytes<std::uint16_t>());
+    EXPECT_EQ(geometry("a.nii").unit, unit);
+  }
 }
 
 TEST_F(ArrayVolumes, ReadsNifti) {
