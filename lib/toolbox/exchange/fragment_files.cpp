@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 
 #include "toolbox/convex/convex_body.h"
 #include "toolbox/exchange/part_files.h"
@@ -12,7 +11,6 @@
 #include "toolbox/sample/csv_reader.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/input_file.h"
-#include "wscvt/base/output_file.h"
 #include "wscvt/base/text.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/mesh_io.h"
@@ -42,9 +40,7 @@ Rounding write_fragment(const std::string& path, const IndexedMesh& mesh,
   SimulationFrame frame;
   frame.origin = mass.centroid;
   frame.axes = mass.principal_axes;
-  const RockableShape shape = rockable_shape(path, in_frame(mesh, frame), in_frame(mass, frame));
-  write_file(path, shape.text);
-  return shape.rounding;
+  return write_rockable_shape(path, in_frame(mesh, frame), in_frame(mass, frame));
 }
 
 std::string fragments_csv(const Fragments& fragments, const std::vector<std::string>& files) {

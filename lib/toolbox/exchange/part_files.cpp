@@ -121,11 +121,7 @@ Rounding write_parts(const std::string& path, const ConvexParts& parts, const Ma
                      double density) {
   check_part_file(path);
   const std::string ending = ending_of(path);
-  if (ending == ".shp") {
-    const RockableShape shape = rockable_shape(path, joined(parts), mass);
-    write_file(path, shape.text);
-    return shape.rounding;
-  }
+  if (ending == ".shp") return write_rockable_shape(path, joined(parts), mass);
   if (ending != ".urdf") {
     write_file(path, ending == ".obj" ? obj_text(parts) : mjcf_text(path, parts, mass, density));
     return {};

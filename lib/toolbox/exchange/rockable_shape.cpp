@@ -12,6 +12,7 @@
 #include "wscvt/base/error.h"
 #include "wscvt/base/execution.h"
 #include "wscvt/base/numbers.h"
+#include "wscvt/base/output_file.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/distances.h"
@@ -165,6 +166,13 @@ RockableShape rockable_shape(const std::string& path, const IndexedMesh& mesh,
     if (rounding.rms_percent <= allowed_rms_percent) break;
   }
   return {text_of(word_of(path), corners, rounding.radius, mass), rounding};
+}
+
+Rounding write_rockable_shape(const std::string& path, const IndexedMesh& mesh,
+                              const MassProperties& mass) {
+  const RockableShape shape = rockable_shape(path, mesh, mass);
+  write_file(path, shape.text);
+  return shape.rounding;
 }
 
 std::vector<std::string> rounding_lines(const std::vector<Rounding>& bodies) {

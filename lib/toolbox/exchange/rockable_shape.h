@@ -35,11 +35,14 @@ struct RockableShape {
 /// radius with an rms distance of at most 0.1 % of it; if none has that, the smallest.
 ///
 /// The shape has the name of the file. `mesh` is closed and outward; it may have several bodies, as
-/// convex parts are. Throws Error(InvalidInput) unless `mass` is
-/// given in the principal frame about the centroid, because the format has three moments and no
-/// axes.
+/// convex parts are. Throws Error(InvalidInput) unless `mass` is given in the principal frame about
+/// the centroid, because the format has three moments and no axes.
 RockableShape rockable_shape(const std::string& path, const IndexedMesh& mesh,
                              const MassProperties& mass);
+
+/// Writes the shape. Returns its rounding. Throws as rockable_shape and write_file do.
+Rounding write_rockable_shape(const std::string& path, const IndexedMesh& mesh,
+                              const MassProperties& mass);
 
 /// Returns a line for a log about bodies that were rounded; no line without such bodies.
 std::vector<std::string> rounding_lines(const std::vector<Rounding>& bodies);

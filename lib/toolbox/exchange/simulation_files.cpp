@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toolbox/exchange/simulation_files.h"
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "toolbox/exchange/distance_grid.h"
@@ -95,10 +93,7 @@ Rounding write_nodes(const std::string& path, const RemeshResult& result,
   IndexedMesh mesh = in_frame(result.mesh, frame);
   const std::string ending = ending_of(path);
   if (ending == ".shp") {
-    const RockableShape shape =
-        rockable_shape(path, mesh, in_frame(mass_properties(result.scan), frame));
-    write_file(path, shape.text);
-    return shape.rounding;
+    return write_rockable_shape(path, mesh, in_frame(mass_properties(result.scan), frame));
   }
   const NodeTable nodes = node_table(std::move(mesh));
   write_file(path, ending == ".csv" ? nodes_csv(nodes) : nodes_vtp(nodes));
