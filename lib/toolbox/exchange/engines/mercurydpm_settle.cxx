@@ -2,6 +2,7 @@
 
 // Lets clumps fall in MercuryDPM, until they are at rest. run.py writes packing.scene. Prints
 // "energy time kinetic" lines, "grain x y z" of each grain, and "sphere k x y z r" of grain k.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -18,11 +19,13 @@ struct Packing : Mercury3Dclump {
 
   void setupInitialConditions() override {
     scene >> sides >> half >> seconds >> fall >> rest >> gravity;
-    scene >> density >> young >> poisson >> friction >> restitution;
+    if (!(scene >> density >> young >> poisson >> friction >> restitution)) {
+      logger(ERROR, "packing.scene cannot be read");
+    }
     auto* species = speciesHandler.copyAndAddObject(LinearViscoelasticFrictionSpecies());
     species->setDensity(density);
     int spheres = 0;
-    double least = 0.0, top = 0.0, radius = 0.0;
+    double least = 0.0, top = 0.0;
     for (double m, i, j, k, x, y, z, w, a, b, c;
          scene >> m >> i >> j >> k >> x >> y >> z >> w >> a >> b >> c >> spheres;) {
       ClumpParticle grain;
@@ -41,16 +44,16 @@ struct Packing : Mercury3Dclump {
       particleHandler.copyAndAddObject(grain);
       if (least == 0.0 || m < least) least = m;
       top = std::fmax(top, z);
-      radius = std::cbrt(m / density);
     }
-    const double stiffness = young * radius;
+    const double size = std::cbrt(least / density);
+    const double stiffness = young * size;
     species->setStiffnessAndRestitutionCoefficient(stiffness, restitution, least);
     species->setSlidingFrictionCoefficient(friction);
     species->setSlidingStiffness(2.0 / 7.0 * species->getStiffness());
     species->setSlidingDissipation(2.0 / 7.0 * species->getDissipation());
     setTimeStep(0.05 * std::sqrt(least / stiffness));
     setTimeMax(seconds);
-    steps_between = static_cast<int>(2.0 * std::sqrt(2.0 * radius / gravity) / getTimeStep());
+    steps_between = std::max(1, static_cast<int>(2.0 * std::sqrt(size / gravity) / getTimeStep()));
     setSaveCount(steps_between);
     setGravity(Vec3D(0, 0, -gravity));
     setDomain(Vec3D(-half, -half, 0), Vec3D(half, half, 2.0 * top));

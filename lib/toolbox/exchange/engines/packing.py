@@ -272,13 +272,36 @@ def diameter(fraction, curve):
     return curve[-1][0]
 
 
-def run_engine(name, *words):
-    """Runs a program; what it prints is in packing.out."""
+def processor_time():
+    """Of the programs that were started here and have ended, in seconds."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def program(name):
+    """The path of a program; or the end, if it is not installed."""
+    return shutil.which(name) or leave("\"%s\" is not installed, or not in a folder of PATH." % name)
+
+
+def run(name, *words):
+    """Runs a program; what it prints is in packing.out, but for its errors."""
     try:
         with open("packing.out", "w") as output:
-            subprocess.run([program(name), *words], check=True, stdout=output, stderr=output)
+            subprocess.run([program(name), *words], check=True, stdout=output)
     except subprocess.CalledProcessError:
-        leave("\"%s\" failed; packing.out says why." % name)
+        leave("\"%s\" failed; the lines above or packing.out say why." % name)
+
+
+def outcome(name, *words):
+    """Runs a program that prints lines of a word and numbers. Returns the rows of each word, and the processor
+    time that it took."""
+    before, rows = processor_time(), collections.defaultdict(list)
+    run(name, *words)
+    for line in open("packing.out"):
+        word, *numbers = line.split() or [""]
+        if word in ("energy", "grain", "sphere", "contact"):
+            rows[word].append([float(v) for v in numbers])
+    return rows, processor_time() - before
 
 
 def touching(bodies):
@@ -307,26 +330,6 @@ def is_inside(body, points):
         normals = np.cross(b - a, c - a)
         inside |= (points @ normals.T <= (normals * a).sum(1)).all(1)
     return inside
-
-
-def program(name):
-    """The path of a program; or the end, if it is not installed."""
-    return shutil.which(name) or leave("\"%s\" is not installed, or not in a folder of PATH." % name)
-
-
-def outcome(*command):
-    """Runs a program that prints lines of a word and numbers. Returns the rows of each word, and the processor
-    time that it took."""
-    def used():
-        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return usage.ru_utime + usage.ru_stime
-
-    before, rows = used(), collections.defaultdict(list)
-    for line in subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines():
-        word, *numbers = line.split() or [""]
-        if word in ("energy", "grain", "sphere", "contact"):
-            rows[word].append([float(v) for v in numbers])
-    return rows, used() - before
 
 
 def porosity(scene, bodies, heights):

@@ -7,7 +7,6 @@ Compiles bullet_settle.cpp against Bullet's C++ library. Bullet's contact margin
 decimetres, so the model has grains of 0.2 m in the mean, and times follow. See packing.py for scene.json.
 """
 import math
-import subprocess
 
 import packing
 from packing import np
@@ -29,8 +28,8 @@ with open("packing.scene", "w") as file:
               *grain.turn, len(grain.shape.parts), file=file)
         for vertices, _ in grain.shape.parts:
             print(len(vertices), *(length * grain.scale * vertices).ravel(), file=file)
-subprocess.run(["g++", "-O2", "-isystem", "/usr/include/bullet", packing.FOLDER / "bullet_settle.cpp", "-o",
-                "./bullet_settle", "-lBulletDynamics", "-lBulletCollision", "-lLinearMath"], check=True)
+packing.run("g++", "-O2", "-isystem", "/usr/include/bullet", packing.FOLDER / "bullet_settle.cpp", "-o",
+            "./bullet_settle", "-lBulletDynamics", "-lBulletCollision", "-lLinearMath")
 rows, seconds = packing.outcome("./bullet_settle")
 for grain, row in zip(scene.grains, np.array(rows["grain"])):
     grain.place, grain.turn = row[:3] / length, row[3:]

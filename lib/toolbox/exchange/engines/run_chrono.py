@@ -22,8 +22,8 @@ find_package(Chrono CONFIG REQUIRED)
 add_executable(chrono_settle "%s")
 target_link_libraries(chrono_settle Chrono::Chrono_core)
 """ % (packing.FOLDER / "chrono_settle.cpp").as_posix())
-packing.run_engine("cmake", "-S", "chrono", "-B", "chrono/build", "-DCMAKE_BUILD_TYPE=Release")
-packing.run_engine("cmake", "--build", "chrono/build")
+packing.run("cmake", "-S", "chrono", "-B", "chrono/build", "-DCMAKE_BUILD_TYPE=Release")
+packing.run("cmake", "--build", "chrono/build")
 rows, seconds = packing.outcome("chrono/build/chrono_settle")
 for grain, row in zip(scene.grains, np.array(rows["grain"])):
     grain.place, grain.turn = row[:3] / length, row[3:]

@@ -4,7 +4,7 @@
     python3 run.py [COUNT]
 
 Needs an NVIDIA card and the Python module DEME. Not run for wscvt: its calls were compared with the engine's
-public Python examples. See packing.py for scene.json.
+C++ interface and public Python scripts. See packing.py for scene.json.
 """
 import math
 import time

@@ -7,7 +7,6 @@ Writes packing.in and starts `lmp`. See packing.py for scene.json.
 """
 import math
 import pathlib
-import resource
 
 import packing
 from packing import np
@@ -96,7 +95,7 @@ label done
            fall=chunk * math.ceil(scene.fall_time() / step / chunk),
            most=max(1, math.ceil((scene.longest_time() - scene.fall_time()) / step / chunk)),
            rest=scene.energy_at_rest()))
-packing.run_engine("lmp", "-in", "packing.in", "-log", "packing.log")
+packing.run("lmp", "-in", "packing.in", "-log", "packing.log")
 
 
 def last(path):
@@ -114,5 +113,4 @@ for line in open("packing.out"):
     words = line.split()
     if len(words) == 3 and words[0].isdigit():
         kinetic[float(words[1])] = float(words[2])
-usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-packing.finish("LAMMPS", scene, moved, places, sorted(kinetic.items()), usage.ru_utime + usage.ru_stime)
+packing.finish("LAMMPS", scene, moved, places, sorted(kinetic.items()), packing.processor_time())

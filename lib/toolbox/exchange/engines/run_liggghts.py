@@ -9,7 +9,6 @@ shape and size: sizes of a curve are put into five classes. See packing.py for s
 import collections
 import math
 import pathlib
-import resource
 
 import packing
 from packing import np
@@ -97,7 +96,7 @@ run {steps}
            friction=given["friction"], model=model, step=step, gravity=scene.gravity, walls="\n".join(walls),
            templates="\n".join(lines), mixture_seed=next(seed), number=len(templates), mixture=mixture,
            source_seed=next(seed), count=len(scene.grains), often=max(1, steps // 40), steps=steps))
-packing.run_engine("liggghts", "-in", "packing.in", "-log", "packing.log")
+packing.run("liggghts", "-in", "packing.in", "-log", "packing.log")
 
 kinetic, moved = [], {}
 for text in open("packing.spheres").read().split("ITEM: TIMESTEP\n")[1:]:
@@ -118,5 +117,4 @@ radii = {key: np.sort(grain.scale * grain.shape.spheres[:, 3]) for key, grain in
 scene.grains = [by_key[min(radii, key=lambda key: (len(radii[key]) != len(body), abs(np.sort(body[:, 3])[-1] - radii[key][-1])))]
                 for body in rows]
 places = [np.average(body[:, :3], weights=body[:, 3] ** 3, axis=0) for body in rows]
-usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-packing.finish("LIGGGHTS", scene, rows, places, kinetic, usage.ru_utime + usage.ru_stime)
+packing.finish("LIGGGHTS", scene, rows, places, kinetic, packing.processor_time())

@@ -8,7 +8,6 @@ them. See packing.py for scene.json.
 """
 import os
 import pathlib
-import subprocess
 
 import packing
 from packing import np
@@ -20,9 +19,9 @@ if not header.exists() or not (build / "Kernel/libMercuryBase.a").exists():
                   "folder where it was built.")
 scene = packing.Scene()
 scene.write_clumps("packing.scene")
-subprocess.run(["g++", "-std=c++17", "-O2", "-I", source / "Kernel", "-I", build / "Kernel", "-I", header.parent,
-                packing.FOLDER / "mercurydpm_settle.cpp", "-o", "mercurydpm_settle", build / "Kernel/libMercuryBase.a",
-                build / "Kernel/Math/libLinearAlgebra.a", "-lgfortran"], check=True)
+packing.run("g++", "-std=c++17", "-O2", "-I", source / "Kernel", "-I", build / "Kernel", "-I", header.parent,
+            packing.FOLDER / "mercurydpm_settle.cpp", "-o", "mercurydpm_settle", build / "Kernel/libMercuryBase.a",
+            build / "Kernel/Math/libLinearAlgebra.a", "-lgfortran")
 rows, seconds = packing.outcome("./mercurydpm_settle")
 spheres = np.array(rows["sphere"])
 packing.finish("MercuryDPM", scene, [spheres[spheres[:, 0] == k, 1:] for k in range(len(scene.grains))], rows["grain"],

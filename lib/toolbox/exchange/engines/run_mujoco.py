@@ -9,7 +9,6 @@ grains of 0.2 m in the mean, and times follow. See packing.py for scene.json.
 """
 import math
 import resource
-import subprocess
 import xml.etree.ElementTree as xml
 
 import packing
@@ -74,7 +73,7 @@ try:
     usage = resource.getrusage(resource.RUSAGE_SELF)
     used = usage.ru_utime + usage.ru_stime
 except ImportError:
-    subprocess.run(["g++", "-O2", packing.FOLDER / "mujoco_settle.cpp", "-o", "./mujoco_settle", "-lmujoco"], check=True)
+    packing.run("g++", "-O2", packing.FOLDER / "mujoco_settle.cpp", "-o", "./mujoco_settle", "-lmujoco")
     found, used = packing.outcome("./mujoco_settle", "packing.xml", str(seconds), str(scene.fall_time() / pace),
                                   str(rest))
     rows, kinetic, contacts = np.array(found["grain"]), found["energy"], found["contact"]

@@ -8,7 +8,6 @@ exaDEM, which reads the same two files; it was compared with exaDEM's public exa
 """
 import math
 import pathlib
-import resource
 import subprocess
 import time
 
@@ -123,6 +122,5 @@ for grain, words in zip(scene.grains, moved):
     grain.place, grain.turn = numbers[:3], numbers[9:13]
 first = next((k for k, line in enumerate(lines) if line.startswith("Interactions ")), len(lines)) + 1
 pairs = [(int(a) - 1 - len(walls), int(b) - 1 - len(walls)) for a, b, *_ in map(str.split, lines[first:]) if a.isdigit()]
-usage = resource.getrusage(resource.RUSAGE_CHILDREN)
 packing.finish("Rockable", scene, [grain.parts() for grain in scene.grains], [grain.place for grain in scene.grains],
-               kinetic, usage.ru_utime + usage.ru_stime, [pair for pair in pairs if min(pair) >= 0])
+               kinetic, packing.processor_time(), [pair for pair in pairs if min(pair) >= 0])
