@@ -13,6 +13,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <regex>
 #include <sstream>
@@ -362,6 +363,17 @@ int exit_code_of(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// Sends SIGTERM to the program as soon as it is ready, and expects that it ends by it.
+void end_when(pid_t child, const std::function<bool()>& is_ready) {
+  ASSERT_NE(child, -1);
+  while (!is_ready()) {
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << "it ended before it was ready";
+  }
+  ASSERT_EQ(kill(child, SIGTERM), 0);
+  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+}
+
 TEST_F(CommandLine, SignalsCancelAndLeaveNothing) {
   // The program waits for a scan from a pipe, gets the signal, then the scan, and cancels.
   ASSERT_EQ(mkfifo((folder_ / "scan.ply").c_str(), 0600), 0);
@@ -408,7 +420,6 @@ TEST_F(CommandLine, ASignalThatIsIgnoredFromTheStartDoesNotEndTheProgram) {
 
 TEST_F(CommandLine, ACancelledCreationSaysWhereItWas) {
   const pid_t child = start(folder_, "create", "superellipsoid", "made.ply", "-n", "200000", "-q");
-  ASSERT_NE(child, -1);
   // As soon as the program notes the signal, before it has told of anything.
   const auto notes_signals = [&] {
     std::ifstream status("/proc/" + std::to_string(child) + "/status");
@@ -418,12 +429,7 @@ TEST_F(CommandLine, ACancelledCreationSaysWhereItWas) {
     }
     return false;
   };
-  while (!notes_signals()) {
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
-  }
-  ASSERT_EQ(kill(child, SIGTERM), 0);
-  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  end_when(child, notes_signals);
   const std::string said = content("said.txt");
   EXPECT_EQ(said.rfind("Cancelled", 0), 0U) << said;
   EXPECT_FALSE(holds(said, ": ."));
@@ -436,13 +442,7 @@ TEST_F(CommandLine, SignalsAreHeardBetweenFiles) {
   const pid_t child =
       start(folder_, WSCVT_MESHES_DIR "/sand_7228.ply", "remesh.ply", "-n", "100", "-q", "--size",
             "1", "--node-table", "nodes.csv", "--sdf", "grid.npy", "--sdf-spacing", "0.005");
-  ASSERT_NE(child, -1);
-  while (!exists("nodes.csv")) {
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
-  }
-  ASSERT_EQ(kill(child, SIGTERM), 0);
-  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  end_when(child, [&] { return exists("nodes.csv"); });
   EXPECT_EQ(read_mesh(path("remesh.ply")).points.size(), 100U);
   EXPECT_FALSE(exists("grid.npy"));
   const std::string said = content("said.txt");
@@ -456,13 +456,7 @@ TEST_F(CommandLine, ASignalAfterManyFilesNamesFiveOfThem) {
             "1", "--node-table", "1.csv", "--node-table", "2.csv", "--node-table", "3.csv",
             "--node-table", "4.csv", "--node-table", "5.csv", "--node-table", "6.csv", "--sdf",
             "grid.npy", "--sdf-spacing", "0.005");
-  ASSERT_NE(child, -1);
-  while (!exists("6.csv")) {
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, WNOHANG), 0) << content("said.txt");
-  }
-  ASSERT_EQ(kill(child, SIGTERM), 0);
-  EXPECT_EQ(exit_code_of(child), 128 + SIGTERM);
+  end_when(child, [&] { return exists("6.csv"); });
   const std::string said = content("said.txt");
   EXPECT_TRUE(holds(said,
                     "before that: \"remesh.ply\", \"1.csv\", \"2.csv\", \"3.csv\", "
