@@ -27,8 +27,8 @@ constexpr std::size_t log_width = 55;
 std::vector<std::string> log_table(const std::vector<std::vector<std::string>>& rows);
 
 /// Returns a log: an empty line, because the host's progress text may lack a line end; the lines;
-/// the warnings; then the verdict, if there is one. MeshLab scrolls to the end and adds two rows of
-/// its own, so that a small panel shows little more than the verdict. Lines are cut slightly before
+/// the warnings; then the verdict, if there is one. MeshLab scrolls to the end and adds rows of its
+/// own, so that a small panel shows little more than the verdict. Lines are cut slightly before
 /// the hosts' limit of 4096 characters.
 std::vector<LogLine> as_log(const std::vector<std::string>& warnings,
                             const std::vector<std::string>& lines, const LogLine& verdict);

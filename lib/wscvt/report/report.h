@@ -49,8 +49,8 @@ std::vector<std::string> summary_lines(const RemeshResult& result);
 std::string named_warnings(const std::vector<Sentence>& warnings);
 
 /// Returns one line for the end of a log: "1000 nodes, volume exact, area -0.323 %, rms 0.332 % of
-/// the radius: good", or "...: look at: The remesh is not accurate" if there are
-/// warnings, as named_warnings says. Up to "good" at most 80 columns for N up to a million.
+/// the radius: good", or "...: look at: The remesh is not accurate" if there are warnings, as
+/// named_warnings says. Up to "good" at most 80 columns for N up to a million.
 std::string verdict_line(const RemeshResult& result);
 
 /// Returns a JSON document (UTF-8, two-space indent, keys in a fixed order). Options have their
@@ -62,8 +62,7 @@ std::string report_json(const RemeshResult& result, const ReportOrigin& origin =
 /// lists is a column, named by its path, joined with dots ("options.weighting"). Histories, coarser
 /// levels, node counts tried and names of descriptors are lists and therefore omitted. All reports
 /// have the same columns, so the rows of many remeshes form one table. Numbers read back to the
-/// same bits; null is empty. The last column contains the warnings, with " | " between
-/// them.
+/// same bits; null is empty. The last column contains the warnings, with " | " between them.
 std::string report_csv(const RemeshResult& result, const ReportOrigin& origin = {});
 
 /// Returns an HTML report for reading and printing, one file without references to other files:
