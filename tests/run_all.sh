@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Builds everything and runs every test.
-#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [web] [static] [wine] [engines] [package] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
+#   tests/run_all.sh [install] [release] [extras] [nightly] [sanitizers] [replay] [format] [tidy] [docs] [page] [web] [static] [wine] [engines] [package] [debian-source] [release-files] [pip] [types] [wheel] [blender] [blender13] [slurm] [workflow] [windows] [debian12] [debian13] [sid]
 # Without arguments: install and release. tests/README.md explains each step. The sanitized
 # build has no assertions of CGAL (CGAL_NDEBUG), because they make some tests a hundred times slower. It has
 # those of Eigen, OpenMesh and the standard library.
@@ -122,6 +122,10 @@ for step in "$@"; do
       # After release. A step of its own, because it installs and removes packages of the system.
       tests/install_packages.sh lintian appstream
       tests/packages.sh build/release build/packages ;;
+    debian-source)
+      # As root, for debootstrap.
+      tests/install_packages.sh debootstrap debhelper dh-python lintian autopkgtest
+      tests/debian_source.sh build/debian-source ;;
     pip)
       # After release, whose program the module is held against. A step of its own, because pip builds
       # the whole library anew.
