@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes the wheel of the Python module and uses it in roots of Debian 11 to 13 that have only Python and
-# NumPy. Each must make the bytes of the program's mesh. As root, for debootstrap.
+# Makes the wheel of the Python module and uses it in roots of Debian 11 to 14 that have only Python and
+# NumPy. Each must make the bytes of the program's mesh. So must the modules of other Pythons
+# that are on PATH, NumPy or not. As root, for debootstrap.
 #   tests/wheel.sh BUILD WORK_FOLDER
 # The roots stay in WORK_FOLDER and are used again.
 set -eu
@@ -21,12 +22,12 @@ wheel=$(echo "$work"/wscvt-*.whl)
 [ -f "$wheel" ] || fail "There is not one wheel in $work."
 "$build/lib/wscvt" "$root/meshes/sand_7228.ply" "$work/program.ply" -q -n 300
 
-for suite in bullseye bookworm trixie; do
+for suite in bullseye bookworm trixie forky; do
   tree=$work/$suite
   if [ ! -d "$tree" ]; then
     rm -rf "$tree.part"
     debootstrap --variant=minbase --include=python3,python3-numpy "$suite" "$tree.part" \
-      http://deb.debian.org/debian > "$work/debootstrap-$suite.txt" ||
+      http://deb.debian.org/debian /usr/share/debootstrap/scripts/sid > "$work/debootstrap-$suite.txt" ||
       fail "$(tail -n 20 "$work/debootstrap-$suite.txt")"
     mv -T "$tree.part" "$tree"
   fi
@@ -55,6 +56,19 @@ assert found["grains"] == 2, found'
       fail "The module in $suite does not load the lib$library of the wheel."
   done
   echo "The wheel works in a bare root of $suite, with Python $python."
+done
+
+rm -rf "$work/whole"
+/usr/bin/python3 -m zipfile -e "$wheel" "$work/whole"
+for module in "$work"/whole/wscvt/_wscvt.*.so; do
+  python=python3.$(echo "$module" | sed 's/.*cpython-3\([0-9]*\).*/\1/')
+  "$python" -c '' 2> "$work/python.txt" || continue
+  rm -rf "$work/batch"
+  PYTHONPATH=$work/whole/wscvt "$python" -Bc '
+import sys, _wscvt
+_wscvt._batch([sys.argv[1]], sys.argv[2], nodes=300)' "$root/meshes/sand_7228.ply" "$work/batch"
+  cmp "$work/program.ply" "$work/batch/sand_7228.ply" || fail "The module for $python made another mesh than the program."
+  echo "The module for $python works."
 done
 
 # The commands of the texts word for word, as in a clone where build/release is built.

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes one self-contained wheel of the module for the Pythons of Debian 11 to 13 and glibc 2.31 or later.
+"""Makes one self-contained wheel of the module for many Pythons and glibc 2.31 or later.
 
     lib/python/make_wheel.py BUILD OUTPUT_FOLDER
 
 BUILD is a configured build folder of Debian 12, build/release for example. The wheel contains a module for each Python
 with the library of C++ inside, the shared libraries that they need except those of every Linux, and all licence texts.
-Needs g++, patchelf, and Debian's archive for the headers of the other Pythons, for glibc 2.31 and, once, for ITK's
-sources, 280 MB.
+The headers of Python 3.9, 3.13, 3.14 and 3.15 are in Debian's archive. Those of 3.10 and 3.12 are not: the wheel serves
+them if a program python3.10 or python3.12 is on PATH and has its headers. The last line says which Pythons it serves.
+Needs g++, patchelf, and Debian's archive also for glibc 2.31 and, once, for ITK's sources, 280 MB.
 """
 import base64
 import hashlib
@@ -25,8 +26,10 @@ PROJECT = HERE.parents[1]
 sys.path.insert(0, str(PROJECT / "packages"))
 from make_static import SYSTEM, itk, openmesh  # noqa: E402
 
-# Of which Debian suite which packages: another Python's headers, and those of pybind11 if ours do not know this Python.
-OTHER_PYTHONS = {"bullseye": ["libpython3.9-dev"], "trixie": ["libpython3.13-dev", "pybind11-dev"]}
+PYTHONS = [f"python3.{minor}" for minor in range(9, 16)]
+# Which Debian suite has the headers of which Pythons, and a pybind11 that knows all of them.
+OTHER_PYTHONS = {"bullseye": ["libpython3.9-dev"], "trixie": ["libpython3.13-dev"],
+                 "forky": ["libpython3.14-dev", "libpython3.15-dev", "pybind11-dev"]}
 # The C library that the modules are linked with. They load with every later one.
 OLD_SUITE, OLD_LIBRARY = "bullseye", ["libc6", "libc6-dev"]
 # The wheel's promise to pip. The check below rejects newer symbols.
@@ -61,15 +64,35 @@ def packages_of(folder, suite, packages):
     return folder
 
 
-def build_modules(build):
-    """Builds the module for each Python and returns their folder."""
-    folders = [packages_of(build.parent / f"python-headers-{suite}", suite, packages)
-               for suite, packages in OTHER_PYTHONS.items()]
-    subprocess.run(["cmake", "-S", PROJECT, "-B", build, "-DWSCVT_BUILD_PYTHON=ON",
-                    "-DWSCVT_PYTHON_OTHER_HEADERS=" + ";".join(map(str, folders))],
+def configure(build, *choices):
+    subprocess.run(["cmake", "-S", PROJECT, "-B", build, "-DWSCVT_BUILD_PYTHON=ON", *choices],
                    check=True, stdout=subprocess.DEVNULL)
+
+
+def headers_on_path(python):
+    """Returns the folder of Python.h of a program on PATH, or nothing."""
+    if shutil.which(python):
+        said = subprocess.run([python, "-c", "import sysconfig; print(sysconfig.get_path('include'))"],
+                              capture_output=True, text=True).stdout.strip()
+        if pathlib.Path(said, "Python.h").is_file():
+            return pathlib.Path(said)
+
+
+def build_modules(build):
+    """Builds the module for each Python and returns the files."""
+    configure(build)
+    own = re.search(r"^PYTHON_MODULE_EXTENSION.*cpython-3(\d+)", (build / "CMakeCache.txt").read_text(), re.M)[1]
+    archive = [packages_of(build.parent / f"python-headers-{suite}", suite, packages) / "usr" / "include"
+               for suite, packages in OTHER_PYTHONS.items()]
+    headers = {path.name: path for folder in archive for path in folder.glob("python3.*")}
+    headers.update((python, path) for python in PYTHONS if python not in headers and (path := headers_on_path(python)))
+    headers.pop(f"python3.{own}", None)
+    configure(build, "-DWSCVT_PYTHON_OTHER_HEADERS=" + ";".join(map(str, headers.values())),
+              f"-DWSCVT_PYTHON_OTHER_PYBIND11={archive[-1]}")
     subprocess.run(["cmake", "--build", build, "--target", "wscvt_pythons"], check=True)
-    return build / "lib" / "python" / "wscvt"
+    folder = build / "lib" / "python" / "wscvt"
+    minors = sorted(int(minor) for minor in [own, *(name.split(".")[1] for name in headers)])
+    return [next(folder.glob(f"_wscvt.cpython-3{minor}-*.so")) for minor in minors]
 
 
 def link_for_old_linux(build, module, made):
@@ -137,10 +160,9 @@ def fill(package, licences, modules, build):
     package.mkdir(parents=True)
     licences.mkdir(parents=True)
     for name in ("__init__.py", "__init__.pyi", "py.typed"):
-        shutil.copy(modules / name, package)
-    found = sorted(modules.glob("_wscvt.cpython-*.so"), key=lambda module: int(version_of(module)[1:]))
+        shutil.copy(modules[0].with_name(name), package)
     libraries = {}
-    for module in found:
+    for module in modules:
         link_for_old_linux(build, module, package / module.name)
         libraries.update(libraries_of(package / module.name))
         subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/libs", package / module.name], check=True)
@@ -155,7 +177,7 @@ def fill(package, licences, modules, build):
     shutil.copy(PROJECT / "LICENSE", licences / "LICENSE")
     for owner in HEADERS_OF + sorted({package_of(path) for path in libraries.values()}):
         (licences / f"{owner}.txt").write_text(copyright_of(owner), encoding="utf-8")
-    return [version_of(module) for module in found]
+    return [version_of(module) for module in modules]
 
 
 def write_wheel(folder, wheel, info):
@@ -196,8 +218,11 @@ def main():
     write_wheel(folder, str(wheel) + ".part", info)
     os.replace(str(wheel) + ".part", wheel)
     shutil.rmtree(folder)
-    print(f"{wheel} is {wheel.stat().st_size / 1e6:.1f} MB, for Python "
-          + ", ".join(f"{python[0]}.{python[1:]}" for python in pythons) + ".")
+    served = [f"python{python[0]}.{python[1:]}" for python in pythons]
+    print(f"{wheel} is {wheel.stat().st_size / 1e6:.1f} MB, for {', '.join(served)}.")
+    for python in PYTHONS:
+        if python not in served:
+            print(f"It does not serve {python}. Put a program {python} with its headers on PATH and make the wheel again.")
 
 
 if __name__ == "__main__":

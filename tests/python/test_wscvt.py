@@ -9,6 +9,7 @@ import os
 import pathlib
 import pickle
 import re
+import shutil
 import subprocess
 import sys
 import threading
@@ -52,7 +53,7 @@ def test_remesh_gives_arrays_of_exactly_n_nodes(scan):
 
 
 def test_the_module_needs_no_library_of_the_formats_of_volumes():
-    module, = pathlib.Path(wscvt.__file__).parent.glob("_wscvt*.so")
+    module = wscvt._wscvt.__file__
     read = subprocess.run(["readelf", "-d", module], capture_output=True, text=True, check=True).stdout
     needed = re.findall(r"NEEDED.*\[lib(.+)\.so", read)
     assert "c" in needed
@@ -997,3 +998,15 @@ def test_extract_of_conforming_grains_shares_their_wall():
     assert len(corners[0] & corners[1]) > 10  # to the bit
     with pytest.raises(wscvt.Error, match="conforming=True"):
         wscvt.extract(labels, edge_length=3)
+
+
+def test_a_copy_for_other_pythons_says_for_which(tmp_path):
+    folder = pathlib.Path(wscvt.__file__).parent
+    (tmp_path / "wscvt").mkdir()
+    shutil.copy(folder / "__init__.py", tmp_path / "wscvt")
+    (tmp_path / "wscvt" / "_wscvt.cpython-38-x86_64-linux-gnu.so").touch()
+    ended = subprocess.run([sys.executable, "-c", "import wscvt"], capture_output=True, text=True, cwd=tmp_path,
+                           env={**os.environ, "PYTHONPATH": ""})
+    version = "{}.{}".format(*sys.version_info[:2])
+    assert ended.returncode == 1 and f"no module for Python {version}. It has _wscvt.cpython-38-" in ended.stderr
+    assert "pip install ./lib/python" in ended.stderr

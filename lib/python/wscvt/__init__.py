@@ -18,15 +18,22 @@ import numbers
 import os
 import pathlib
 import re
+import sys
 import tempfile
 import textwrap
 import threading
 
 import numpy
 
+try:
+    from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __version__,
+                         options)
+except ModuleNotFoundError:
+    raise ImportError(
+        "This copy of wscvt has no module for Python {}.{}. It has {}. Use a Python of these, or build the module with yours "
+        "in a clone of wscvt: pip install ./lib/python".format(*sys.version_info[:2], ", ".join(
+            sorted(file.name for file in pathlib.Path(__file__).parent.glob("_wscvt.*"))) or "none")) from None
 from . import _wscvt
-from ._wscvt import (Error, FileError, InputError, MissingFileError, Remesh, __version__,
-                     options)
 
 __all__ = ["Error", "FileError", "InputError", "MissingFileError", "Remesh", "batch",
            "carry_attributes", "clump", "convex", "create", "describe", "distance_grid", "extract",
