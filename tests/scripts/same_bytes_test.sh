@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the program and another one, and compares their files byte by byte: both methods, all weightings,
-# placements, clump, convex, grow, segment, extract and reports. OTHER is a program, or older-processor for the
-# same program as on a processor on which glibc takes other variants of its mathematical functions. A build without ITK
-# has no segment; it is given the labels.
+# placements, clump, convex, fragment, grow, templates, segment, contacts, extract, conforming walls, engines' folders and
+# reports. OTHER is a program, or older-processor for the same program as on a processor on which glibc takes other variants
+# of its mathematical functions. A build without ITK has no segment; it is given the labels.
 #   same_bytes_test.sh PROGRAM OTHER MESHES WORK_FOLDER [every-grain | without-segment]
 set -eu
 program=$(realpath "$1")
@@ -46,11 +46,15 @@ make_all() {  # folder
     --report contact.html
   wscvt clump contact.ply --output clump.csv -q -k 12
   wscvt convex contact.ply --output parts.obj -q -k 4
+  wscvt clump contact.ply -o lammps -q -k 5 --engine lammps
+  wscvt convex contact.ply -o yade -q -k 1 --faces 40 --engine yade
+  wscvt fragment contact.ply -o fragments -q -k 5 -n 80
   # Growing needs eight grains.
   for nodes in 150 200; do
     wscvt batch "$meshes" -o $nodes -q -n $nodes
   done
   wscvt grow 150 200 -o grown -q -k 4 -n 100 --degree 8
+  wscvt grow 150 --templates -o templates -q -k 4
   wscvt sample 150 -q --report sample.json
   wscvt create superellipsoid rod.stl --semi-axes 3 1 0.5 --exponents 0.7 1 -q -n 200
   cp "$work/scan.tif" .
@@ -60,6 +64,8 @@ make_all() {  # folder
     cp "$work/labels.nrrd" .
   fi
   wscvt batch labels.nrrd -o extracted -q -n 100
+  wscvt describe labels.nrrd scan.tif -o contacts -q
+  wscvt extract labels.nrrd walls -q -n 100
 }
 
 # Two balls that touch, 60 x 32 x 32 voxels of one byte.
