@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs the Python module with pip from a copy of the sources, without the network, into an environment
+# Installs the Python module with pip from an archive of its sources (sdist), without the network, into an environment
 # of its own, runs its tests there, with PROGRAM, and removes it: nothing may be left.
 #   tests/python_install.sh PROGRAM WORK_FOLDER
 set -eu
@@ -24,9 +24,11 @@ cp -r "$root/CMakeLists.txt" "$root/lib" "$work/source"
   fail "pip installed the module without CMake."
 grep -q 'cmake is missing' "$work/missing.txt" && grep -q 'apt-get install g++ cmake' "$work/missing.txt" ||
   fail "pip does not name what is missing: $(tail -n 20 "$work/missing.txt")"
-# NumPy, pytest and what pip builds with are Debian's.
+# NumPy, pytest and what pip builds with are Debian's. The archive of the sources, for an index, has all that pip needs.
 python=$work/environment/bin/python
-"$python" -m pip install --no-index --no-build-isolation "$work/source/lib/python" \
+(cd "$work/source/lib/python" && "$python" setup.py -q sdist -d "$work") > "$work/archive.txt" 2>&1 ||
+  fail "$(tail -n 20 "$work/archive.txt")"
+"$python" -m pip install --no-index --no-build-isolation "$work"/wscvt-*.tar.gz \
   > "$work/installed.txt" 2>&1 || fail "$(tail -n 40 "$work/installed.txt")"
 
 cd "$work"

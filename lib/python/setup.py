@@ -9,8 +9,11 @@ import sys
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
-PROJECT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+INSIDE = HERE / "project"  # in an archive that sdist made
+PROJECT = INSIDE if INSIDE.is_dir() else HERE.parents[1]
 NEEDED = """
 The build needs a C++17 compiler, CMake 3.22, pybind11, OpenMesh 9, Eigen 3.4, CGAL 5.5, Boost,
 nlohmann-json and zlib; stb_image for pictures, ITK for segment. On Debian or Ubuntu run, as root or with sudo:
@@ -79,6 +82,18 @@ class CMakeBuild(build_ext):
         self.copy_file(str(made), str(folder / pathlib.Path(self.get_ext_filename(ext.name)).name))
 
 
+class SourceArchive(sdist):
+    """Adds the sources of the library, which are not below this folder."""
+
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        inside = pathlib.Path(base_dir, INSIDE.name)
+        shutil.copytree(PROJECT / "lib", inside / "lib",
+                        ignore=shutil.ignore_patterns(pathlib.Path(base_dir).name, "build", "*.egg-info", "__pycache__"))
+        for name in ("CMakeLists.txt", "LICENSE"):
+            shutil.copy(PROJECT / name, inside)
+
+
 version = re.search(r"project\(wscvt VERSION ([0-9.]+)", (PROJECT / "CMakeLists.txt").read_text())
 setup(version=version[1], ext_modules=[Extension("wscvt._wscvt", sources=[])],
-      cmdclass={"build_ext": CMakeBuild})
+      cmdclass={"build_ext": CMakeBuild, "sdist": SourceArchive})
