@@ -98,6 +98,9 @@ packing() {  # folder, heading, grains, lower and upper limit of the porosity, c
 packing yade_clumps Yade 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine yade
 container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine yade
 packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.0005 --engine yade
+# One mesh, 100 nodes and a grid of distances each, with the law of yade_level_sets.py.
+packing yade_level_sets Yade 20 .4 .85 batch "my scans" -n 100 --size 20 --engine yade
+packing yade_level_sizes Yade 20 .4 .85 batch "my scans" -n 100 --size-curve curve.csv --engine yade
 packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine lammps
 container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 20 --engine liggghts
 packing mujoco MuJoCo 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine mujoco
@@ -120,19 +123,6 @@ for a, b in zip(given, moved):
     for mine, theirs in ((a[1], b[4]), (sum(a[5:8]), sum(b[5:8]))):
         assert abs(mine / theirs - 1) < 1e-5, (a, b)
 END
-
-# The example that makes its grains by itself.
-examples=$here/../../lib/examples/engines
-yade -n -x "$examples/yade_level_set.py" > usage.log 2>&1 && exit 1
-grep -q "yade_level_set.py SCANS" usage.log
-rm -f yade_level_set.png
-WSCVT=$program yade -n -x "$examples/yade_level_set.py" "my scans" 8 > level_set.log 2>&1 || {
-  tail -n 30 level_set.log >&2
-  exit 1
-}
-grep -q '^Left out: my scans/broken scan.ply' level_set.log
-grep "^Yade level sets: 8 grains.* 0\.00.. m/s at most" level_set.log
-test -s yade_level_set.png
 
 # A clump of the grain: LIGGGHTS and Yade drop it on a wall.
 "$program" clump -q "$here/../../meshes/sand_7228.ply" -k 20 --size 0.05 -o clump.multisphere -o clump.py \

@@ -2,21 +2,20 @@
 # yade -n -x yade_test.py NODES_CSV GRID_NPY: loads the files into Yade, throws a grain at a wall without
 # damping, and two grains at each other. They must keep their energy without friction and lose some with it.
 # At the wall the law is Yade's own: its force acts along the wall's normal, in which the overlap changes.
-# Between grains it is the law of yade_contacts.py, because Yade's own force acts there along the normal of
+# Between grains it is the law of yade_level_sets.py, because Yade's own force acts there along the normal of
 # the node's own grain (checked below), not along the normal of the surface that the node is in. The energy
 # that is left with Yade's own law is printed and not checked.
 import math
 import os
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "../../lib/toolbox/exchange/engines"))
 import numpy
 from yade import (Body, ForceResetter, FrictMat, InsertionSortCollider, InteractionLoop, NewtonIntegrator, O,
                   Quaternion, Vector3, Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, Ig2_LevelSet_LevelSet_ScGeom,
                   Ig2_Wall_LevelSet_ScGeom, Ip2_FrictMat_FrictMat_FrictPhys,
                   Law2_ScGeom_FrictPhys_CundallStrack, MatchMaker, PyRunner, utils)
-from yade_contacts import GrainContacts
-from yade_grain import Grain, kinetic_energy
+from yade_level_sets import Grain, GrainContacts, kinetic_energy
 
 
 def check(holds, sentence):
@@ -48,7 +47,7 @@ def scene():
 
 def collision(own_law=True, friction=0.0, look=lambda contact: None):
     """Kinetic energy after the bodies have met and left each other / that before, by Yade's own law or,
-    for two grains, by that of yade_contacts; look(contact) sees their first contact."""
+    for two grains, by that of yade_level_sets; look(contact) sees their first contact."""
     global contacts
     law = Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False, traceEnergy=True)
     stiffness = lambda value: MatchMaker(algo="val", val=value if own_law else 0)

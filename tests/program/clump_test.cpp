@@ -195,6 +195,23 @@ TEST_F(ClumpProgram, AFolderForAnEngineHasWhatItNeeds) {
   expect_refused("", {{other, 2, "has a size curve"}}, {});
   ASSERT_EQ(run("clump scans -k 2 -q -o equal --engine yade --size 3").exit_code, 0);
   EXPECT_FALSE(exists("equal/sizes.csv"));
+  // Level sets are the meshes, nodes and grids of a batch.
+  ASSERT_EQ(run("batch scans -n 60 -q -o level --size 2 --sdf-spacing 0.2 --sdf npy --engine yade")
+                .exit_code,
+            0);
+  EXPECT_TRUE(holds(content("level/shapes.json"), "\"file\": \"a.obj\""));
+  for (const char* file : {"a.obj", "node-table/b.csv", "sdf/b.npy", "run.py", "packing.py",
+                           "scene.json", "yade_level_sets.py", "templates.csv", "summary.html"}) {
+    EXPECT_TRUE(exists(std::string("level/") + file)) << file;
+  }
+  EXPECT_TRUE(holds(content("level/sdf/a.npy.json"), "\"name\": \"principal\""));
+  EXPECT_FALSE(exists("large/yade_level_sets.py"));
+  expect_refused("batch scans -o new -n 60",
+                 {{"--engine lammps", 2, "takes no level sets. Use wscvt clump"},
+                  {"--engine yade -n 50,60", 2, "a single number of nodes"},
+                  {"--engine yade --format ply", 2, "Leave out --format"},
+                  {"--engine yade --frame centred", 2, "Leave out --frame"}},
+                 {"new"});
   expect_refused("clump scans -o new",
                  {{"--engine mujoco", 2, "Use wscvt convex"},
                   {"--engine lamps", 2, "yade, lammps, liggghts"},

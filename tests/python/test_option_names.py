@@ -37,7 +37,7 @@ NAMES = {
                     OF_A_RESULT | {"tetrahedra", "edge_length"}),
     "create": Names(lambda **o: wscvt.create("ellipsoid", **o), "create", {"surface", "coefficients_file"}),
     "batch": Names(lambda **o: wscvt.batch("scans", output="no", **o), "batch", {"scans", "keep_scan"} | OF_HANDLES,
-                   IN_FILES),
+                   IN_FILES | {"engine", "size_curve"}),
     "segment": Names(lambda **o: wscvt.segment(VOLUME, **o), "segment", {"scan"}, IN_FILES),
     "extract": Names(lambda **o: wscvt.extract(VOLUME, **o), "extract", {"labels", "conforming"},
                      IN_FILES | {"parts", "separate", "describe", "tetrahedra", "format", "shard"}),

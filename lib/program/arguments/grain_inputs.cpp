@@ -54,60 +54,6 @@ bool has_curve_of_templates(const ScanInputs& arguments, const FrameOptions& fra
   return are_templates(arguments) && arguments.sizes.empty() && !(frame.size > 0.0);
 }
 
-/// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
-/// gives their weights and sizes.
-std::string write_engine_files(const ScanInputs& arguments, const GrainJob& job,
-                               const GrainSource& grains, EngineShapes shapes,
-                               const FrameOptions& frame, double density) {
-  const JobFolder folder = folders_of(job).front();
-  std::vector<EngineGrain> list;
-  for (std::size_t k = 0; k < grains.size(); ++k) {
-    list.push_back({csv_field(grains.name(k)), folder.name_of(grains.name(k))});
-  }
-  const std::string& in = arguments.inputs.front();
-  // run.py reads only commas, decimal points and one heading.
-  const auto write_sizes = [&](const std::string& curve, double scale) {
-    write_file(sizes_in(folder.path()), read_given_sizes(curve).table(scale));
-  };
-  if (are_templates(arguments)) {
-    write_file(weights_in(folder.path()), file_content(weights_in(in)));
-  }
-  if (has_curve_of_templates(arguments, frame)) write_sizes(sizes_in(in), frame.scale);
-  if (!arguments.sizes.empty()) write_sizes(arguments.sizes, 1.0);
-  const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
-  return write_engine_folder(folder.path(), arguments.engine, shapes, list, frame,
-                             is_given ? density : engine_density);
-}
-
-/// Throws if what an engine needs would replace files of a person, or if the packing would get the
-/// weights or sizes of an earlier call.
-void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
-                         const FrameOptions& frame) {
-  if (arguments.engine.empty()) return;
-  require_own_script(folder);
-  require_own_table(folder, "sizes.csv", GivenSizes::heading());
-  if (!are_templates(arguments) && std::filesystem::exists(weights_in(folder))) {
-    refuse("The folder \"" + folder +
-           "\" has weights of templates, templates.csv, which its packing would get. Remove them, "
-           "or give another folder with " +
-           mention("output") + ".");
-  }
-  if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) {
-    if (!arguments.sizes.empty() || has_curve_of_templates(arguments, frame) ||
-        !std::filesystem::exists(sizes_in(folder))) {
-      return;
-    }
-    refuse(
-        "The folder \"" + folder +
-        "\" has a size curve, sizes.csv, which its packing would get. Give it, or another, with " +
-        mention("size-curve") + ", or remove it for the grains' own sizes.");
-  }
-  if (frame.scale == 1.0 && !(frame.size > 0.0)) return;
-  refuse("The folder \"" + folder +
-         "\" has the grains, whose size curve would be scaled too. Give another folder with " +
-         mention("output") + ".");
-}
-
 }  // namespace
 
 bool ScanInputs::is_sample() const {
@@ -130,6 +76,11 @@ void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& fi
                          ->group(finer_settings);
   add_shard_argument(app, arguments.shard);
   app.get_option("--shard")->group(finer_settings);
+  add_engine_arguments(app, arguments, files, shapes);
+}
+
+void add_engine_arguments(CLI::App& app, ScanInputs& arguments, const std::string& files,
+                          EngineShapes shapes) {
   app.add_option("--engine", arguments.engine,
                  "Make a folder of the " + files +
                      " that this engine packs: " + engine_names(shapes) +
@@ -163,6 +114,58 @@ void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes, std::
   }
   frame.frame = Frame::Principal;
   if (!arguments.sizes.empty()) read_given_sizes(arguments.sizes);
+}
+
+std::vector<std::string> write_engine_files(const ScanInputs& arguments, const GrainJob& job,
+                                            const GrainSource& grains, EngineShapes shapes,
+                                            const FrameOptions& frame, double density) {
+  if (arguments.engine.empty() || arguments.shard.count > 1) return {};
+  const JobFolder folder = folders_of(job).front();
+  std::vector<EngineGrain> list;
+  for (std::size_t k = 0; k < grains.size(); ++k) {
+    list.push_back({csv_field(grains.name(k)), folder.name_of(grains.name(k))});
+  }
+  const std::string& in = arguments.inputs.front();
+  // run.py reads only commas, decimal points and one heading.
+  const auto write_sizes = [&](const std::string& curve, double scale) {
+    write_file(sizes_in(folder.path()), read_given_sizes(curve).table(scale));
+  };
+  if (are_templates(arguments)) {
+    write_file(weights_in(folder.path()), file_content(weights_in(in)));
+  }
+  if (has_curve_of_templates(arguments, frame)) write_sizes(sizes_in(in), frame.scale);
+  if (!arguments.sizes.empty()) write_sizes(arguments.sizes, 1.0);
+  const bool is_given = arguments.density != nullptr && arguments.density->count() > 0;
+  const std::string start = write_engine_folder(folder.path(), arguments.engine, shapes, list,
+                                                frame, is_given ? density : engine_density);
+  return {"Pack them: cd " + folder.path() + " && " + start};
+}
+
+void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
+                         const FrameOptions& frame) {
+  if (arguments.engine.empty()) return;
+  require_own_script(folder);
+  require_own_table(folder, "sizes.csv", GivenSizes::heading());
+  if (!are_templates(arguments) && std::filesystem::exists(weights_in(folder))) {
+    refuse("The folder \"" + folder +
+           "\" has weights of templates, templates.csv, which its packing would get. Remove them, "
+           "or give another folder with " +
+           mention("output") + ".");
+  }
+  if (!same_file(sizes_in(arguments.inputs.front()), sizes_in(folder))) {
+    if (!arguments.sizes.empty() || has_curve_of_templates(arguments, frame) ||
+        !std::filesystem::exists(sizes_in(folder))) {
+      return;
+    }
+    refuse(
+        "The folder \"" + folder +
+        "\" has a size curve, sizes.csv, which its packing would get. Give it, or another, with " +
+        mention("size-curve") + ", or remove it for the grains' own sizes.");
+  }
+  if (frame.scale == 1.0 && !(frame.size > 0.0)) return;
+  refuse("The folder \"" + folder +
+         "\" has the grains, whose size curve would be scaled too. Give another folder with " +
+         mention("output") + ".");
 }
 
 void check_one_scan(const ScanInputs& arguments) {
@@ -203,12 +206,8 @@ int run_sample(const ScanInputs& arguments, GrainJob job, EngineShapes shapes,
   const JobEnd end = run_job(job, *inputs, threads, quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
   print({end_line(job, end)}, quiet);  // also if the engine's files cannot be written
-  std::vector<std::string> lines;
-  if (!arguments.engine.empty() && arguments.shard.count == 1) {
-    const std::string start = write_engine_files(arguments, job, *inputs, shapes, frame, density);
-    lines.push_back("Pack them: cd " + folders_of(job).front().path() + " && " + start);
-  }
-  print_made(std::move(lines), job.folder, begin, quiet);
+  print_made(write_engine_files(arguments, job, *inputs, shapes, frame, density), job.folder, begin,
+             quiet);
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

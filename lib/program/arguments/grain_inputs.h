@@ -32,6 +32,10 @@ struct ScanInputs {
 void add_scan_inputs(CLI::App& app, ScanInputs& arguments, const std::string& files,
                      std::string& format, EngineShapes shapes);
 
+/// Adds --engine and --size-curve, as add_scan_inputs.
+void add_engine_arguments(CLI::App& app, ScanInputs& arguments, const std::string& files,
+                          EngineShapes shapes);
+
 /// Says in the help of --density that the grains of a packing have another default.
 void tell_density_of_packing(CLI::Option& density);
 
@@ -39,6 +43,20 @@ void tell_density_of_packing(CLI::Option& density);
 /// format or the frame; or for a curve that cannot be read. Sets the format and the frame.
 void check_engine_inputs(const ScanInputs& arguments, EngineShapes shapes, std::string& format,
                          FrameOptions& frame);
+
+/// Throws wscvt::Error(InvalidInput) if what the engine needs would replace files of a person, or
+/// if the packing would get the weights or sizes of an earlier call. Without an engine does
+/// nothing.
+void check_engine_folder(const ScanInputs& arguments, const std::string& folder,
+                         const FrameOptions& frame);
+
+/// Writes what the engine needs into the folder of a job. A sample that is a folder of templates
+/// gives their weights and sizes. The density counts if it was given. Returns the command that
+/// starts the engine, a line for the log. Without an engine, or for a part of a sample, does
+/// nothing.
+std::vector<std::string> write_engine_files(const ScanInputs& arguments, const GrainJob& job,
+                                            const GrainSource& grains, EngineShapes shapes,
+                                            const FrameOptions& frame, double density);
 
 /// Throws wscvt::Error(InvalidInput) for options of several scans, if only one scan is given.
 void check_one_scan(const ScanInputs& arguments);

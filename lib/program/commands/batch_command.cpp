@@ -29,10 +29,9 @@ namespace {
 /// `wscvt batch`: remeshes the grains of a sample, one grain per thread, and writes a table and a
 /// summary.
 struct BatchArguments {
-  std::vector<std::string> inputs;
+  ScanInputs sample;
   std::string folder;  ///< of the output
-  Shard shard;
-  int threads = 0;  ///< 0: all
+  int threads = 0;     ///< 0: all
   bool quiet = false;
   RemeshJob job;
 };
@@ -60,17 +59,19 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
        "interruption, the same call continues the batch.",
        true,
        true});
-  app.add_option("inputs", arguments.inputs,
+  app.add_option("inputs", arguments.sample.inputs,
                  "Meshes, volumes of labels, folders, patterns in quotes, or @FILE with one of "
                  "these per line")
       ->type_name("INPUT")
       ->required();
   add_folder_argument(app, arguments.folder);
-  add_shard_argument(app, arguments.shard);
+  add_shard_argument(app, arguments.sample.shard);
   add_format_argument(app, arguments.job.format);
   add_choice(app, arguments.job.shapes.described);
   add_remesh_arguments(app, arguments.job.remesh);
   add_simulation_arguments(app, arguments.job);
+  arguments.sample.format = app.get_option("--format");
+  add_engine_arguments(app, arguments.sample, "level sets", EngineShapes::LevelSets);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
   nodes->description(nodes->get_description() + ". Several, such as 100,300, get one folder each");
   nodes->transform([&arguments](const std::string& text) {
@@ -88,27 +89,49 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
   return app;
 }
 
+/// Adds the files that an engine needs.
+void add_engine_files(const ScanInputs& sample, RemeshJob& job) {
+  check_engine_inputs(sample, EngineShapes::LevelSets, job.format, job.simulation.frame);
+  if (sample.engine.empty()) return;
+  if (!job.levels.empty()) refuse("--engine needs a single number of nodes. Give one.");
+  const auto add = [](std::vector<std::string>& endings, const char* ending) {
+    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+      endings.emplace_back(ending);
+    }
+  };
+  add(job.node_tables, "csv");
+  add(job.grids, "npy");
+}
+
 int run(const BatchArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
+  const ScanInputs& sample = arguments.sample;
+  RemeshJob options = arguments.job;
+  const FrameOptions& frame = options.simulation.frame;
   checked([&] {
-    check_job(arguments.job);
-    check_volume_options(arguments.job.volume);
+    add_engine_files(sample, options);
+    check_job(options);
+    check_volume_options(options.volume);
+    check_engine_folder(sample, arguments.folder, frame);
   });
   if (!arguments.quiet) check_writable("/dev/stdout");
-  const std::vector<std::string> files = checked([&] { return input_files(arguments.inputs); });
+  const std::vector<std::string> files = checked([&] { return input_files(sample.inputs); });
   const std::unique_ptr<GrainSource> inputs =
-      open_inputs(files, arguments.job.volume, arguments.shard, arguments.quiet, use_parts);
-  RemeshJob options = arguments.job;
+      open_inputs(files, options.volume, sample.shard, arguments.quiet, use_parts);
   options.shapes.contacts = options.shapes.described == Described::Contacts;
   options.shapes.resolution =
       describes_scan(options.shapes.described) &&
       (options.volume.choice.voxel_size || std::any_of(files.begin(), files.end(), is_volume));
-  GrainJob job = make_job(options, arguments.folder, arguments.shard);
+  GrainJob job = make_job(options, arguments.folder, sample.shard);
   job.long_names = inputs->volumes() > 1;
   const JobEnd end = run_job(job, *inputs, arguments.threads, arguments.quiet);
   if (end.was_cancelled()) return 128 + noted_signal();
-  print_made(write_summaries(job, Execution(arguments.threads)), arguments.folder, begin,
-             arguments.quiet);
+  std::vector<std::string> lines = write_summaries(job, Execution(arguments.threads));
+  for (std::string& line :
+       write_engine_files(sample, job, *inputs, EngineShapes::LevelSets, frame, engine_density)) {
+    lines.push_back(std::move(line));
+  }
+  print_made(std::move(lines), arguments.folder, begin, arguments.quiet);
   return end.failed == 0 && !is_much_left_out(inputs->left_out()) ? Done : SomeFailed;
 }
 

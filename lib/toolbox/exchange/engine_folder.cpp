@@ -16,6 +16,7 @@ namespace wscvt {
 // The files of the folder engines/.
 extern const char* const packing_script;
 extern const char* const run_yade_script;
+extern const char* const yade_level_sets_script;
 extern const char* const run_lammps_script;
 extern const char* const run_liggghts_script;
 extern const char* const run_mercurydpm_script;
@@ -31,40 +32,55 @@ extern const char* const run_rockable_script;
 
 namespace {
 
+/// Shapes that an engine takes. An engine that takes several has a row for each.
 struct EngineRow {
   std::string_view name;
-  const char* clumps;  ///< ending of the clumps that it takes; or null
-  const char* parts;   ///< of the parts
+  EngineShapes shapes;
+  const char* format;  ///< ending of their files
   const char* command;
-  const char* script;        ///< run.py
-  const char* program_name;  ///< of a program that run.py compiles; or null
-  const char* program;
+  const char* script;     ///< run.py
+  const char* more_name;  ///< of a file that run.py compiles or imports; or null
+  const char* more;
 };
 
 constexpr const char* python = "python3 run.py";
+constexpr const char* in_yade = "yade -n -x run.py";
 
 const std::vector<EngineRow>& engines() {
+  constexpr EngineShapes clumps = EngineShapes::Clumps;
+  constexpr EngineShapes parts = EngineShapes::Parts;
   static const std::vector<EngineRow> rows = {
-      {"yade", "csv", "obj", "yade -n -x run.py", run_yade_script, nullptr, nullptr},
-      {"lammps", "csv", nullptr, python, run_lammps_script, nullptr, nullptr},
-      {"liggghts", "csv", nullptr, python, run_liggghts_script, nullptr, nullptr},
-      {"mercurydpm", "csv", nullptr, python, run_mercurydpm_script, "mercurydpm_settle.cpp",
+      {"yade", clumps, "csv", in_yade, run_yade_script, nullptr, nullptr},
+      {"yade", parts, "obj", in_yade, run_yade_script, nullptr, nullptr},
+      {"yade", EngineShapes::LevelSets, "obj", in_yade, run_yade_script, "yade_level_sets.py",
+       yade_level_sets_script},
+      {"lammps", clumps, "csv", python, run_lammps_script, nullptr, nullptr},
+      {"liggghts", clumps, "csv", python, run_liggghts_script, nullptr, nullptr},
+      {"mercurydpm", clumps, "csv", python, run_mercurydpm_script, "mercurydpm_settle.cpp",
        mercurydpm_settle_script},
-      {"chrono", "csv", nullptr, python, run_chrono_script, "chrono_settle.cpp",
+      {"chrono", clumps, "csv", python, run_chrono_script, "chrono_settle.cpp",
        chrono_settle_script},
-      {"dem-engine", "csv", nullptr, python, run_dem_engine_script, nullptr, nullptr},
-      {"mujoco", nullptr, "obj", python, run_mujoco_script, "mujoco_settle.cpp",
+      {"dem-engine", clumps, "csv", python, run_dem_engine_script, nullptr, nullptr},
+      {"mujoco", parts, "obj", python, run_mujoco_script, "mujoco_settle.cpp",
        mujoco_settle_script},
-      {"bullet", nullptr, "obj", python, run_bullet_script, "bullet_settle.cpp",
+      {"bullet", parts, "obj", python, run_bullet_script, "bullet_settle.cpp",
        bullet_settle_script},
-      {"rockable", nullptr, "shp", python, run_rockable_script, nullptr, nullptr},
+      {"rockable", parts, "shp", python, run_rockable_script, nullptr, nullptr},
   };
   return rows;
 }
 
-/// Returns the ending of the shapes; or null if the engine does not take them.
-const char* format_of(const EngineRow& engine, EngineShapes shapes) {
-  return shapes == EngineShapes::Clumps ? engine.clumps : engine.parts;
+/// The name of shapes, and the command that makes them.
+std::pair<std::string, std::string> name_and_command(EngineShapes shapes) {
+  switch (shapes) {
+    case EngineShapes::Clumps:
+      return {"clumps", "wscvt clump"};
+    case EngineShapes::Parts:
+      return {"convex parts", "wscvt convex"};
+    case EngineShapes::LevelSets:
+      break;
+  }
+  return {"level sets", "wscvt batch"};
 }
 
 std::string scene_text(const FrameOptions& frame, double density) {
@@ -93,12 +109,14 @@ std::string shapes_text(const std::vector<EngineGrain>& grains) {
 
 /// Throws as engine_format.
 const EngineRow& engine_row(const std::string& engine, EngineShapes shapes) {
+  std::string other;
   for (const EngineRow& row : engines()) {
     if (row.name != engine) continue;
-    if (format_of(row, shapes) != nullptr) return row;
-    refuse("\"" + engine + "\" takes no " +
-           (shapes == EngineShapes::Clumps ? "clumps. Use wscvt convex"
-                                           : "convex parts. Use wscvt clump") +
+    if (row.shapes == shapes) return row;
+    other = name_and_command(row.shapes).second;
+  }
+  if (!other.empty()) {
+    refuse("\"" + engine + "\" takes no " + name_and_command(shapes).first + ". Use " + other +
            " with this engine, or one of " + engine_names(shapes) + ".");
   }
   refuse("There are no files for an engine \"" + engine + "\". Give one of " +
@@ -110,14 +128,14 @@ const EngineRow& engine_row(const std::string& engine, EngineShapes shapes) {
 std::string engine_names(EngineShapes shapes) {
   std::string names;
   for (const EngineRow& engine : engines()) {
-    if (format_of(engine, shapes) == nullptr) continue;
+    if (engine.shapes != shapes) continue;
     names += (names.empty() ? "" : ", ") + std::string(engine.name);
   }
   return names;
 }
 
 std::string engine_format(const std::string& engine, EngineShapes shapes) {
-  return format_of(engine_row(engine, shapes), shapes);
+  return engine_row(engine, shapes).format;
 }
 
 void require_own_script(const std::string& folder) {
@@ -138,7 +156,7 @@ std::string write_engine_folder(const std::string& folder, const std::string& en
   const std::filesystem::path in(folder);
   write_file((in / "packing.py").string(), packing_script);
   write_file((in / "run.py").string(), row.script);
-  if (row.program != nullptr) write_file((in / row.program_name).string(), row.program);
+  if (row.more != nullptr) write_file((in / row.more_name).string(), row.more);
   write_file((in / "shapes.json").string(), shapes_text(grains));
   const std::filesystem::path scene = in / "scene.json";
   std::error_code ignored;

@@ -9,13 +9,14 @@
 namespace wscvt {
 
 /// What an engine takes for a grain.
-enum class EngineShapes { Clumps, Parts };
+enum class EngineShapes { Clumps, Parts, LevelSets };
 
 /// Returns the names of the engines that take these shapes, with commas between.
 std::string engine_names(EngineShapes shapes);
 
 /// Returns the ending of the files of grains in the folder of an engine, without the point: "csv"
-/// for clumps, "obj" or "shp" for parts. The files are in the principal frame. Throws
+/// for clumps, "obj" or "shp" for parts, "obj" for the meshes of level sets, which have tables of
+/// nodes (csv) and grids of distances (npy) too. The files are in the principal frame. Throws
 /// Error(InvalidInput), with the engines' names, unless the engine takes these shapes.
 std::string engine_format(const std::string& engine, EngineShapes shapes);
 

@@ -3,7 +3,7 @@
 # makes the packing of the paper's figure 11 in Yade: grains of 0.1 m, in LAYERS (6) of SIDE x SIDE (3), thrown
 # down at 2 m/s into a box as wide as they are, until SECONDS (1) have passed. Normal and tangential stiffness
 # are 2e6 and 1e6 N/m, FRICTION is 0.5, Yade's DAMPING 0.3. LAW between grains is "contacts", the law of
-# ../../engines/yade_contacts.py, or "own", Yade's. Starts depend only on the seed, so that those of different
+# ../../../lib/toolbox/exchange/engines/yade_level_sets.py, or "own", Yade's. Starts depend only on the seed, so that those of different
 # nodes are paired. Without damping and friction the sum of the energies must stay, except with Yade's law.
 # Columns: time, kinetic, potential and elastic energy, mean overlap of grains in contact as Yade sees it /
 # radius; the last line is the cost. OUTPUT_CSV.poses gets position and quaternion w, x, y, z of each grain
@@ -13,14 +13,14 @@ import os
 import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "../../engines"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])),
+                                "../../../lib/toolbox/exchange/engines"))
 import numpy
 from yade import (Bo1_LevelSet_Aabb, Bo1_Wall_Aabb, ForceResetter, FrictMat, Ig2_LevelSet_LevelSet_ScGeom,
                   Ig2_Wall_LevelSet_ScGeom, InsertionSortCollider, InteractionLoop,
                   Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack, MatchMaker,
                   NewtonIntegrator, O, PyRunner, Quaternion, Vector3, utils)
-from yade_contacts import GrainContacts
-from yade_grain import Grain, kinetic_energy
+from yade_level_sets import Grain, GrainContacts, kinetic_energy
 
 arguments = sys.argv[1:]
 nodes_csv, grid_npy, seed, output = arguments[:4]
@@ -89,7 +89,7 @@ cost -= contacts.seconds
 if damping == 0 and friction == 0:
     totals = [sum(values[1:4]) for values in rows]
     print("Yade undamped: %d nodes, by %s energies from %.4g to %.4g J, %.4g at the start" %
-          (len(grain.nodes), "Yade's own law" if own_law else "yade_contacts", min(totals), max(totals),
+          (len(grain.nodes), "Yade's own law" if own_law else "yade_level_sets", min(totals), max(totals),
            totals[0]))
     # 0.6 % were seen after a second with 100 nodes.
     if not own_law and max(abs(total / totals[0] - 1) for total in totals) > 0.02:

@@ -45,8 +45,8 @@ def leave(sentence, code=2):
 
 class Shape:
     """A grain's body about its centroid in its principal axes, with volume, moments of unit density and
-    radius about the origin. `spheres` has rows x, y, z, r; or `parts` has (vertices, faces). `rounding` is the
-    radius of the sphere that rounds parts; they reach to the planes of the rounded faces."""
+    radius about the origin. `spheres` has rows x, y, z, r; or `parts` has (vertices, faces), or the whole mesh of a
+    level set. `rounding` is the radius of the sphere that rounds parts; they reach to the planes of the rounded faces."""
 
     def __init__(self, path, row, scene):
         values = {key.rpartition("mass_properties.")[2].rpartition("grain.")[2]: value for key, value in row.items()}
@@ -191,14 +191,14 @@ def quantiles(count):
 
 
 def read_parts(path):
-    """Vertices and triangles of each group of an OBJ file, with numbers from 0 in the group."""
-    parts, before = [], 0
+    """Vertices and triangles of each group of an OBJ file, or of the whole, with numbers from 0 in the group."""
+    parts, before = [([], [])], 0
     for line in open(path):
         words = line.split()
         if not words:
             continue
-        if words[0] == "g":
-            before += len(parts[-1][0]) if parts else 0
+        if words[0] == "g" and parts[-1][0]:
+            before += len(parts[-1][0])
             parts.append(([], []))
         elif words[0] == "v":
             parts[-1][0].append([float(w) for w in words[1:4]])
@@ -234,7 +234,12 @@ def read_rounded_parts(path):
 
 
 def read_shapes(scene):
-    rows = {row["grain"]: row for row in csv.DictReader(open(FOLDER / "grains.csv", newline=""))}
+    table = FOLDER / "mass.csv"
+    if table.exists():  # in the unit of the files
+        scene = {"size": 0.0, "scale": 1.0}
+    else:
+        table = FOLDER / "grains.csv"
+    rows = {row["grain"]: row for row in csv.DictReader(open(table, newline=""))}
     files = json.loads((FOLDER / "shapes.json").read_text())
     shapes = [Shape(FOLDER / one["file"], rows[one["grain"]], scene) for one in files
               if rows.get(one["grain"], {}).get("status") == "done"]
@@ -319,16 +324,21 @@ def touching(bodies):
 
 
 def is_inside(body, points):
-    """Whether points lie in a body of spheres or of parts."""
+    """Whether points lie in a body of spheres or of closed meshes, by the solid angle of each mesh (Van Oosterom and
+    Strackee 1983)."""
     inside = np.zeros(len(points), bool)
     if isinstance(body, np.ndarray):
         for *c, r in body:
             inside |= ((points - c) ** 2).sum(1) < r * r
         return inside
     for vertices, faces in body:
-        a, b, c = (vertices[faces[:, k]] for k in range(3))
-        normals = np.cross(b - a, c - a)
-        inside |= (points @ normals.T <= (normals * a).sum(1)).all(1)
+        angle = np.zeros(len(points))
+        for corners in vertices[faces]:
+            a, b, c = (corner - points for corner in corners)
+            la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+            ab, bc, ca = ((v * w).sum(1) for v, w in ((a, b), (b, c), (c, a)))
+            angle += 2 * np.arctan2((a * np.cross(b, c)).sum(1), la * lb * lc + ab * lc + bc * la + ca * lb)
+        inside |= np.abs(angle) > 2 * math.pi
     return inside
 
 

@@ -1,30 +1,79 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A contact law between grains of wscvt in Yade that conserves energy. Yade finds the node of one grain
-that is deepest in the other, but its force acts along the normal of the node's own grain. The overlap
-does not change along this normal, so that collisions of angular grains end with half the energy or with
-four times as much. Here the force follows from an energy, kn u^2 / 2 for the depth u, so it acts along
-the gradient of the distance to the surface that the node is in. Along the surface it is Cundall and
-Strack's, as Yade's own (Law2_ScGeom_FrictPhys_CundallStrack). In your own script:
+"""Grains of wscvt as level sets in Yade, and a contact law between them that conserves energy. Lengths are in
+the unit of the files. In your own script:
 
-    from yade_contacts import GrainContacts
-    contacts = GrainContacts(grain, kn, ks, friction)      # grain: yade_grain.Grain, of several any one
+    wscvt remesh scan.ply remesh.ply -n 200 --frame principal --size 0.1 --node-table nodes.csv --sdf grid.npy
+
+    from yade_level_sets import Grain, GrainContacts
+    grain = Grain("nodes.csv", "grid.npy")                 # one shape, for any number of bodies
+    contacts = GrainContacts(grain, kn, ks, friction)      # of several grains any one
     O.engines = [..., InteractionLoop([Ig2_LevelSet_LevelSet_ScGeom(), ...],
                                       [Ip2_FrictMat_FrictMat_FrictPhys(kn=..., ...)],   # 0 between grains
                                       [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
                  PyRunner(command="contacts.apply()", iterPeriod=1), NewtonIntegrator(...)]
+
+Yade finds the node of one grain that is deepest in the other, but its force acts along the normal of the node's
+own grain. The overlap does not change along this normal, so that collisions of angular grains end with half the
+energy or with four times as much. Here the force follows from an energy, kn u^2 / 2 for the depth u, so it acts
+along the gradient of the distance to the surface that the node is in. Along the surface it is Cundall and
+Strack's, as Yade's own (Law2_ScGeom_FrictPhys_CundallStrack).
 """
+import json
 import time
 
-from yade import LevelSet, O, Vector3
+import numpy
+from yade import Aabb, Body, LevelSet, O, Quaternion, RegularGrid, Vector3, Vector3i
+
+
+class Grain:
+    def __init__(self, nodes_csv, grid_npy, scale=1.0):
+        """Both files in the principal frame (--frame principal). The grain is `scale` times as large."""
+        with open(grid_npy + ".json") as file:
+            description = json.load(file)
+        if description["frame"]["name"] != "principal":
+            raise ValueError("Yade's bodies lie in their principal axes; write --frame principal.")
+        distances = scale * numpy.load(grid_npy)
+        axes = "xyz"
+        self.shape = LevelSet(
+            lsGrid=RegularGrid(
+                min=scale * Vector3(*[description["origin"][a] for a in axes]),
+                nGP=Vector3i(*[description["counts"][a] for a in axes]),
+                spacing=scale * description["spacing"]),
+            distField=distances.tolist(), nSurfNodes=8, nodesPath=2)
+        # Read before the nodes are set: Yade makes its own with it.
+        self.voxel_volume = self.shape.volume()
+        table = numpy.genfromtxt(nodes_csv, delimiter=",", names=True)
+        self.nodes = [scale * Vector3(float(r["x"]), float(r["y"]), float(r["z"])) for r in table]
+        self.shape.updateAttrs({"surfNodes": self.nodes})
+        self.spacing = scale * description["spacing"]
+        mass = description["mass"]
+        self.volume = scale ** 3 * mass["volume"]
+        self.inertia = scale ** 5 * Vector3(*[mass["principal_moments"][k] for k in ("least", "middle", "greatest")])
+
+    def body(self, position, orientation=Quaternion(1, 0, 0, 0), velocity=Vector3(0, 0, 0),
+             material=None):
+        """A body of this shape. All share it: it is as large as its grid."""
+        body = Body()
+        body.shape = self.shape
+        body.material = material
+        body.bound = Aabb()
+        body.aspherical = True
+        body.dynamic = True
+        body.state.pos = position
+        body.state.ori = orientation
+        body.state.vel = velocity
+        body.state.mass = self.volume * material.density
+        body.state.inertia = self.inertia * material.density
+        return body
 
 
 class GrainContacts:
     def __init__(self, grain, normal_stiffness, shear_stiffness, friction):
         """Stiffnesses in N/m, friction as the tangent of its angle. Bodies may have other shapes than the
         grain's, with grids as fine."""
-        self.normal_stiffness = normal_stiffness
-        self.shear_stiffness = shear_stiffness
-        self.friction = friction
+        self.normal_stiffness = float(normal_stiffness)  # a number of NumPy would make arrays of vectors
+        self.shear_stiffness = float(shear_stiffness)
+        self.friction = float(friction)
         # Elastic, of the contacts of the last step.
         self.energy = 0.0
         # Processor time spent here, so that a study can tell it from Yade's own.
@@ -104,3 +153,14 @@ class GrainContacts:
         O.forces.addT(contact.id2, -other_arm.cross(force))
         self.energy += 0.5 * self.normal_stiffness * depth ** 2
         self.energy += 0.5 * tangential.squaredNorm() / self.shear_stiffness
+
+
+def kinetic_energy(bodies):
+    """Of moving and turning, J."""
+    total = 0.0
+    for body in bodies:
+        state = body.state
+        turn = state.ori.conjugate() * state.angVel
+        total += 0.5 * state.mass * state.vel.squaredNorm()
+        total += 0.5 * sum(state.inertia[k] * turn[k] ** 2 for k in range(3))
+    return total
