@@ -22,7 +22,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy
 from scipy.spatial import ConvexHull
 from scipy.special import lpmv
-from scipy.stats import ks_2samp, norm, rankdata
+from scipy.stats import ks_2samp, norm, rankdata, wasserstein_distance
 from sklearn.ensemble import ExtraTreesClassifier, HistGradientBoostingClassifier
 from sklearn.linear_model import LogisticRegression
 from sklearn.metrics import roc_auc_score
@@ -230,18 +230,35 @@ def grow(arguments, files, folder):
 
 
 def templates(arguments, files, folder):
+    """Distances of the four descriptors by which templates are chosen, and of all others, in standard deviations."""
     names = pathlib.Path(folder) / "all.txt"
     names.write_text("".join("%s\n" % file for file in files))
-    print("\n| K | by number | random | by mass | random |\n|---|---|---|---|---|")
+    known = described_files(files)
+    others = numpy.array(list(known.values()))[:, 4:]
+    place, rng = {file.name: k for k, file in enumerate(known)}, numpy.random.default_rng(arguments.seed)
+
+    def distance(chosen, weights=None):
+        return numpy.mean([wasserstein_distance(column[chosen], column, weights) / column.std() for column in others.T])
+
+    print("\n| K | by number | random | by mass | random | others by number | random |\n|---|---|---|---|---|---|---|")
     for count in (10, 20, 50):
         out = pathlib.Path(folder) / ("templates%d" % count)
         subprocess.run([arguments.program, "grow", "--templates", "@%s" % names, "-k", str(count), "-n", "100",
                         "-o", out, "-q", "--seed", str(arguments.seed)], check=False)
         with open(out / "distances.csv", newline="") as table:
             row = list(csv.DictReader(table))[-1]
-        print("| %d | %s |" % (count, " | ".join(
-            "%.3f" % float(row[k]) for k in ("by_number", "random_by_number", "by_mass",
-                                             "random_by_mass"))), flush=True)
+        with open(out / "templates.csv", newline="") as table:
+            chosen = [t for t in csv.DictReader(table) if t["source"] in place]
+        cells = [float(row[k]) for k in ("by_number", "random_by_number", "by_mass", "random_by_mass")]
+        cells.append(distance([place[t["source"]] for t in chosen], [float(t["weight_by_number"]) for t in chosen]))
+        cells.append(numpy.mean([distance(rng.choice(len(others), count, False)) for _ in range(100)]))
+        print("| %d | %s |" % (count, " | ".join("%.3f" % cell for cell in cells)), flush=True)
+
+
+def described_files(files):
+    rows = {file: described(c) for file, c in ((file, standing(read(file))) for file in files)
+            if c is not None}
+    return {file: row for file, row in rows.items() if row is not None}
 
 
 def halves(files, rng):
@@ -259,9 +276,7 @@ def cells_of(*groups):
 
 
 def splits(arguments, files):
-    rows = {file: described(c) for file, c in ((file, standing(read(file))) for file in files)
-            if c is not None}
-    rows = {file: row for file, row in rows.items() if row is not None}
+    rows = described_files(files)
     print("| split | floor | to unseen grains | to the sample | AUC |\n|---|---|---|---|---|")
     table = []
     for seed in range(1, arguments.splits + 1):
