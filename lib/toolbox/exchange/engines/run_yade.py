@@ -21,7 +21,7 @@ scene = packing.Scene()
 given, width = scene.material, scene.width
 young, friction = given["young_modulus"], math.atan(given["friction"])
 are_clumps = scene.grains[0].shape.spheres is not None
-are_level_sets = not are_clumps and os.path.exists(packing.FOLDER / "sdf")
+are_level_sets = os.path.exists(packing.FOLDER / "yade_level_sets.py")
 if are_level_sets and scene.shape != "box":
     packing.leave("Yade's level sets touch plane walls only: give the container the shape \"box\" in scene.json.")
 if are_clumps or are_level_sets:
