@@ -99,7 +99,7 @@ packing yade_clumps Yade 40 .4 .65 clump "my scans" -k 10 --size 0.02 --engine y
 container=cylinder packing yade_sizes Yade 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine yade
 packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.0005 --engine yade
 # One mesh, 100 nodes and a grid of distances each, with the law of yade_level_sets.py.
-packing yade_level_sets Yade 20 .4 .85 batch "my scans" -n 100 --size 20 --engine yade
+packing yade_level_sets Yade 20 .4 .8 batch "my scans" -n 100 --size 20 --engine yade
 packing yade_level_sizes Yade 20 .4 .85 batch "my scans" -n 100 --size-curve curve.csv --engine yade
 packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine lammps
 container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 20 --engine liggghts

@@ -118,6 +118,26 @@ def test_files_for_engines_are_well_formed_and_name_their_parts(tmp_path):
     assert len(body.findall("geom")) == 2
 
 
+def test_the_packing_of_level_sets_has_the_grains(tmp_path, monkeypatch):
+    """The body of packing.py is the whole mesh, in the unit of the files, with its hollows."""
+    subprocess.run([os.environ["WSCVT_PROGRAM"], "batch", MESHES / "sand_5658.ply", "-n", "200", "--scale", "2", "-q", "-o",
+                    tmp_path, "--engine", "yade"], check=True)
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["run.py", "1"])
+    sys.modules.pop("packing", None)
+    import packing
+    grain = packing.Scene().grains[0]
+    sys.modules.pop("packing")
+    (vertices, faces), = grain.parts()
+    volume = np.linalg.det(vertices[faces] - grain.place).sum() / 6
+    assert grain.shape.volume == pytest.approx(volume, rel=1e-6)
+    assert grain.mass == pytest.approx(2650 * volume, rel=1e-6)
+    points = grain.place + np.random.RandomState(1).uniform(-1, 1, (20000, 3)) * grain.radius
+    share = volume / (2 * grain.radius) ** 3
+    deviation = np.sqrt(share * (1 - share) / len(points))
+    assert packing.is_inside(grain.parts(), points).mean() == pytest.approx(share, abs=4 * deviation)
+
+
 def test_the_packing_of_rounded_parts_has_the_parts(tmp_path, monkeypatch):
     """packing.py of an engine's folder takes the parts of a Rockable shape out to their planes again."""
     program = os.environ["WSCVT_PROGRAM"]
