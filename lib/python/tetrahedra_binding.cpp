@@ -45,11 +45,9 @@ py::dict filled(const std::function<TetrahedralMesh(const Execution&)>& fill,
 py::dict tetrahedra(const Points& vertices, const py::object& faces, double edge_length,
                     const std::optional<std::filesystem::path>& output, int threads,
                     const py::object& progress) {
-  IndexedMesh surface = mesh_of(vertices, faces);
+  const IndexedMesh surface = mesh_of(vertices, faces);
   return filled(
-      [&](const Execution& execution) {
-        return tetrahedra_in(std::move(surface), edge_length, execution);
-      },
+      [&](const Execution& execution) { return tetrahedra_in(surface, edge_length, execution); },
       output, threads, progress);
 }
 

@@ -80,50 +80,30 @@ void measure(TetrahedralMesh& mesh) {
 
 void require_tetrahedra() { require_gmsh(); }
 
-TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution& execution) {
-  require_in_range(edge, tetrahedra_edge_option);
-  const double volume = volume_of(surface, execution);
-  if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
-  execution.report(0.0, "Filling with tetrahedra");
-  // Gmsh has tolerances that are lengths, so it gets a grain of the size 1 about the origin.
-  const double radius = equivalent_radius(volume);
+namespace {
+
+/// Gmsh's tolerances are lengths, so it gets a grain of the size 1 about the origin. `size`: its
+/// equivalent radius; length.
+TetrahedralMesh fill_once(const IndexedMesh& surface, double edge, double size) {
   const Vector3 centre = surface.points.front();
   std::vector<double> coordinates;
   for (const Vector3& p : surface.points) {
-    const Vector3 own = (p - centre) / radius;
+    const Vector3 own = (p - centre) / size;
     coordinates.insert(coordinates.end(), own.data(), own.data() + 3);
   }
   std::vector<std::size_t> corners;
   for (const Triangle& t : surface.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  const double wanted = edge > 0.0 ? edge : mean_edge_of(surface);
-  // Regular ones have 6 sqrt(2) tetrahedra per edge cubed.
-  const double expected = 6.0 * std::sqrt(2.0) * volume / (wanted * wanted * wanted);
-  if (expected > most_tetrahedra) {
-    refuse("Edges of " + format_number(wanted) + " need about " + format_number(expected / 1e6, 3) +
-           " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
-           " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
-  }
-  GmshVolume filled;
-  try {
-    filled = gmsh_volume(std::move(coordinates), std::move(corners), wanted / radius);
-  } catch (const Error&) {
-    const std::size_t pairs = self_intersections(surface, execution).size();
-    if (pairs == 0) throw;
-    throw Error(ErrorCode::NumericalFailure,
-                format_count(pairs, "pair") +
-                    " of triangles of the surface intersect, and no tetrahedra fill such a "
-                    "surface. Of a remesh, a warning says what to use instead.");
-  }
+  const GmshVolume volume = gmsh_volume(std::move(coordinates), std::move(corners), edge / size);
   TetrahedralMesh mesh;
-  mesh.surface = std::move(surface);
-  for (std::size_t i = mesh.surface.points.size(); i < filled.coordinates.size() / 3; ++i) {
-    const double* const own = filled.coordinates.data() + 3 * i;
-    mesh.surface.points.push_back(centre + radius * Vector3(own[0], own[1], own[2]));
+  mesh.surface = surface;
+  for (std::size_t i = surface.points.size(); i < volume.coordinates.size() / 3; ++i) {
+    const double* const own = volume.coordinates.data() + 3 * i;
+    mesh.surface.points.push_back(centre + size * Vector3(own[0], own[1], own[2]));
   }
   const std::vector<Vector3>& points = mesh.surface.points;
-  for (std::size_t k = 0; k + 3 < filled.corners.size(); k += 4) {
+  for (std::size_t k = 0; k + 3 < volume.corners.size(); k += 4) {
     Tetrahedron t{};
-    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(filled.corners[k + c]);
+    for (std::size_t c = 0; c < 4; ++c) t[c] = static_cast<std::int32_t>(volume.corners[k + c]);
     if (six_volumes(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]],
                     points[t[3]] - points[t[0]]) < 0.0) {
       std::swap(t[0], t[1]);
@@ -133,6 +113,55 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge, const Execution&
   check_surface(mesh);
   measure(mesh);
   return mesh;
+}
+
+/// Regular tetrahedra are 6 sqrt(2) per edge cubed.
+double expected_tetrahedra(double volume, double edge) {
+  return 6.0 * std::sqrt(2.0) * volume / (edge * edge * edge);
+}
+
+}  // namespace
+
+TetrahedralMesh tetrahedra_in(const IndexedMesh& surface, double edge, const Execution& execution) {
+  require_in_range(edge, tetrahedra_edge_option);
+  const double volume = volume_of(surface, execution);
+  if (!(volume > 0.0)) refuse("The surface encloses no volume. Give a closed outward mesh.");
+  execution.report(0.0, "Filling with tetrahedra");
+  const double size = equivalent_radius(volume);
+  const double surface_edge = mean_edge_of(surface);
+  const double wanted = edge > 0.0 ? edge : surface_edge;
+  const double expected = expected_tetrahedra(volume, wanted);
+  if (expected > most_tetrahedra) {
+    refuse("Edges of " + format_number(wanted) + " need about " + format_number(expected / 1e6, 3) +
+           " million tetrahedra, more than " + format_number(most_tetrahedra / 1e6) +
+           " million. Give a larger " + mention(tetrahedra_edge_option) + ".");
+  }
+  TetrahedralMesh best;
+  try {
+    best = fill_once(surface, wanted, size);
+  } catch (const Error&) {
+    const std::size_t pairs = self_intersections(surface, execution).size();
+    if (pairs == 0) throw;
+    throw Error(ErrorCode::NumericalFailure,
+                format_count(pairs, "pair") +
+                    " of triangles of the surface intersect, and no tetrahedra fill such a "
+                    "surface. Of a remesh, a warning says what to use instead.");
+  }
+  // Beside short edges of the surface flat tetrahedra reach to the next inner points, and in some
+  // places Gmsh finds no better ones. With other inner points most of them vanish.
+  for (const double share : {0.9, 0.8, 0.7}) {
+    const double shorter = share * std::min(wanted, surface_edge);
+    if (best.smallest_dihedral >= least_dihedral) break;
+    if (expected_tetrahedra(volume, shorter) > most_tetrahedra) break;
+    execution.report(0.0, "Filling with tetrahedra");
+    try {
+      TetrahedralMesh other = fill_once(surface, shorter, size);
+      if (other.smallest_dihedral > best.smallest_dihedral) best = std::move(other);
+    } catch (const Error&) {
+      break;
+    }
+  }
+  return best;
 }
 
 namespace {

@@ -40,20 +40,25 @@ inline constexpr NumberOption<double> tetrahedra_edge_option = {
 /// More are refused, because Gmsh cannot be stopped and needs minutes and gigabytes for them.
 inline constexpr double most_tetrahedra = 5e6;
 
+/// With smaller dihedral angles, tetrahedra make equations hard to solve.
+inline constexpr double least_dihedral = 12.0;  // degrees
+
 /// Throws Error(InvalidInput) that says what to install, if Gmsh is not there.
 void require_tetrahedra();
 
 /// Fills a closed outward mesh with tetrahedra, by Gmsh. The surface keeps its points and
 /// triangles to the bit, and inner points are added. `edge`: the longest wanted edge inside,
-/// length; 0: as on the surface. It is reached gradually from the surface's edges. The same input
-/// gives the same result.
+/// length; 0: as on the surface. It is reached gradually from the surface's edges. If an angle is
+/// below least_dihedral, up to three fills with shorter edges (.9, .8 and .7 of `edge` or of the
+/// surface's mean edge, the smaller) are tried, and the best one is taken. The same input gives the
+/// same result.
 ///
 /// Gmsh (Geuzaine and Remacle 2009, Int. J. Numer. Meth. Eng. 79, 1309-1331) is opened only here,
 /// because its libraries cost .09 s and 50 MB. It keeps a state of its own, so one thread works at
 /// a time. Throws Error: InvalidInput as require_tetrahedra, for an edge below 0, for one that
 /// needs more than most_tetrahedra, and for a mesh without volume; NumericalFailure if Gmsh cannot
 /// fill the mesh, as when it intersects itself; Cancelled before the work.
-TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
+TetrahedralMesh tetrahedra_in(const IndexedMesh& surface, double edge,
                               const Execution& execution = Execution());
 
 /// Fills several bodies, each by itself. Where two have triangles of the same points, to the bit,
@@ -62,9 +67,6 @@ TetrahedralMesh tetrahedra_in(IndexedMesh surface, double edge,
 TetrahedralMesh tetrahedra_in(const std::vector<IndexedMesh>& bodies, const std::string& kind,
                               const std::vector<std::string>& names, double edge,
                               const Execution& execution = Execution());
-
-/// With smaller dihedral angles, tetrahedra make equations hard to solve.
-inline constexpr double least_dihedral = 12.0;  // degrees
 
 /// Returns a line for a log: numbers and angles, and of several bodies the one with the smallest
 /// angle and how many have one below `least_dihedral`.
