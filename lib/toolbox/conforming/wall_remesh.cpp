@@ -341,6 +341,9 @@ void WallRemesher::run(const std::vector<double>& least, int nodes, const Execut
     relax(2, execution);
   }
   widen_small();
+  // Nodes beside a widened wall are now too near to it.
+  collapse_narrow();
+  flip_all(false);
   mesh_.compact();
 }
 

@@ -42,9 +42,10 @@ class WallPairs {
 };
 
 /// Moves the nodes of intersecting triangles: sheets of free surface away from each other, by
-/// `step`, others to the middle of their neighbours. Nodes that `stay` do not move.
+/// `step`, others to the middle of their neighbours: along their line, unless its wall is `narrow`
+/// and would shrink to a point. With `stay` the nodes of narrow walls do not move.
 void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs,
-                const std::vector<char>& stay, double step) {
+                const std::vector<char>& narrow, bool stay, double step) {
   std::vector<Vector3> shift(mesh.points.size(), Vector3::Zero());
   std::vector<char> is_knot(mesh.points.size(), 0);
   for (const auto& [first, second] : pairs) {
@@ -70,7 +71,7 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs,
   }
   const std::vector<Vector3> before = mesh.points;
   for (std::size_t v = 0; v < before.size(); ++v) {
-    if (stay[v] != 0) continue;
+    if (stay && narrow[v] != 0) continue;
     if (is_knot[v] != 0) {
       Vector3 sum = Vector3::Zero();
       double count = 0.0;
@@ -78,7 +79,7 @@ void part_pairs(WallMesh& mesh, const std::vector<TrianglePair>& pairs,
         sum += before[other];
         count += 1.0;
       };
-      if (mesh.places[v] == WallPlace::Line) {
+      if (mesh.places[v] == WallPlace::Line && narrow[v] == 0) {
         for (const std::int32_t end : mesh.line_neighbours(static_cast<std::int32_t>(v))) add(end);
       } else {
         mesh.visit_triangles(static_cast<std::int32_t>(v), [&](std::size_t t) {
@@ -113,24 +114,23 @@ FinishedWalls finish_walls(WallMesh& mesh, const std::vector<double>& volumes, d
   constexpr int most_restorations = 5;
   constexpr double step = 0.1;  // of a dense edge; wide against rounding, small against a gap
   WallPairs walls(mesh);
-  // Parted nodes would shrink a narrow wall to a sliver: first others move alone.
-  std::vector<char> stay = nodes_of_narrow_walls(mesh);
+  // Parted nodes make a narrow wall uneven: first others move alone.
+  const std::vector<char> narrow = nodes_of_narrow_walls(mesh);
   std::vector<char> is_near(mesh.points.size(), 0);
   std::vector<TrianglePair> pairs = walls.all(mesh.points, execution);
   for (int k = 0; k < most_partings && !pairs.empty(); ++k) {
     execution.report(0.02 * k, "Parting triangles");
     for (const std::int32_t v : vertices_of(pairs, walls.triangles())) is_near[v] = 1;
-    if (2 * k == most_partings) std::fill(stay.begin(), stay.end(), char{0});
-    part_pairs(mesh, pairs, stay, step * dense_edge);
+    part_pairs(mesh, pairs, narrow, 2 * k < most_partings, step * dense_edge);
     pairs = walls.near(mesh.points, is_near, execution);
   }
   const std::vector<Vector3> parted = mesh.points;
   std::vector<double> shares(parted.size(), 1.0);
   // Both sides of a wall of one triangle are narrow there, and would stretch it to a false contact:
-  // by 18 % of its area between two pyramids, by 2 % with a tenth of the move.
+  // by 18 % of its area between two pyramids, by 1 % with a twentieth of the move.
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!mesh.is_alone(t)) continue;
-    for (const std::int32_t v : mesh.triangles[t].corners) shares[v] = 0.1;
+    for (const std::int32_t v : mesh.triangles[t].corners) shares[v] = 0.05;
   }
   FinishedWalls result;
   for (int k = 0; k < most_restorations; ++k) {
