@@ -586,6 +586,7 @@ def tetrahedra(vertices, faces=None, **options):
         Or several bodies: a dictionary of pairs (vertices, faces) by label, or a list of pairs.
         Walls that two of them share are in the result once.
     edge_length: the longest wanted edge inside, in the mesh's unit. 0, the default: as on the surface.
+        A body with an angle below 12 degrees is filled again with shorter ones, up to three times.
     output: also write this file: .vtu (ParaView), .msh (Gmsh) or .inp (Abaqus, CalculiX).
     threads, progress: as for remesh.
 
