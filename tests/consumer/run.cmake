@@ -42,11 +42,12 @@ if(NOT named STREQUAL installed)
 endif()
 # The shells of the library include what is installed, and nothing else of the library.
 file(GLOB_RECURSE shells ${source_dir}/lib/program/*.h ${source_dir}/lib/program/*.cpp
-  ${source_dir}/lib/python/*.h ${source_dir}/lib/python/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
+  ${source_dir}/lib/python/*.h ${source_dir}/lib/python/*.cpp ${source_dir}/lib/c/*.h ${source_dir}/lib/c/*.cpp
+  ${source_dir}/lib/web/*.cpp ${source_dir}/filter_wscvt/*.h ${source_dir}/filter_wscvt/*.cpp)
 foreach(shell ${shells})
-  file(STRINGS ${shell} lines REGEX "^ *# *include *[<\"](wscvt|toolbox)/")
+  file(STRINGS ${shell} lines REGEX "^ *# *include *[<\"][./]*(wscvt|toolbox)/")
   foreach(line ${lines})
-    string(REGEX REPLACE ".*[<\"]((wscvt|toolbox)/[^>\"]+)[>\"].*" "\\1" included ${line})
+    string(REGEX REPLACE ".*[<\"/]((wscvt|toolbox)/[^>\"]+)[>\"].*" "\\1" included ${line})
     if(NOT included IN_LIST headers)
       message(FATAL_ERROR "${shell} includes ${included}, which is not installed.")
     endif()

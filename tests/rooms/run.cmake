@@ -28,6 +28,10 @@ file(WRITE ${work_dir}/wscvt/attic/box.h "")
 expect_fault("wscvt/attic/box.h stands in a room that the order does not know")
 
 file(REMOVE_RECURSE ${work_dir})
+file(WRITE ${work_dir}/wscvt/base/one.cpp "#include \"../../toolbox/clump/clump.h\"\n")
+expect_fault("wscvt/base/one.cpp has a way around the rooms")
+
+file(REMOVE_RECURSE ${work_dir})
 file(WRITE ${work_dir}/toolbox/clump/one.cpp "double a = std::cos(1.0)\;\n")
 expect_fault("toolbox/clump/one.cpp calls what has other values elsewhere")
 
