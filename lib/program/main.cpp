@@ -15,10 +15,9 @@
 #include <system_error>
 #include <vector>
 
-#include "program/call/call_words.h"
 #include "program/call/command.h"
 #include "program/call/exit_code.h"
-#include "program/call/help_files.h"
+#include "program/call/help_text.h"
 #include "program/commands/commands.h"
 #include "program/terminal/terminal.h"
 #include "wscvt/base/output_file.h"

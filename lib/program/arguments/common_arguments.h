@@ -7,6 +7,7 @@
 
 #include "toolbox/job/grain_files.h"
 #include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/remesh/remesh_options.h"
 
 namespace wscvt::program {
 
@@ -52,5 +53,13 @@ std::string mesh_argument_text(const std::string& what, MeshUse use);
 /// Adds an argument for one file; empty if it is not given.
 CLI::Option* add_file_argument(CLI::App& app, const std::string& names, std::string& file,
                                const std::string& description);
+
+/// Adds an argument for every option of both methods (is_option_of), under the option's key. Users
+/// type options as reports print them. Parsing changes `options`, which must outlive `app`. Their
+/// values before are the defaults of their method. A call with an option of the other method is
+/// refused, with the option to use instead. Help texts are made from the options' tables and
+/// ranges.
+void add_remesh_arguments(CLI::App& app, RemeshOptions& options,
+                          Remeshed remeshed = Remeshed::Scan);
 
 }  // namespace wscvt::program

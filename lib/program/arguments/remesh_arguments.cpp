@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "program/arguments/remesh_arguments.h"
-
 #include <algorithm>
 #include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
 
+#include "program/arguments/common_arguments.h"
 #include "program/call/command.h"
 #include "program/terminal/terminal.h"
 #include "wscvt/base/text.h"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "program/call/call_words.h"
-
 #include <CLI/Error.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "program/call/command.h"
 #include "toolbox/job/grain_files.h"
 #include "wscvt/base/text.h"
 #include "wscvt/mesh_files/mesh_io.h"

@@ -94,4 +94,18 @@ std::string help_of(Enumeration value) {
   return help_of_choices<Enumeration>(". Default: " + key_of(value));
 }
 
+/// Returns a script with which bash completes commands, options, and named values of options.
+/// Everything else completes to files.
+std::string bash_completion(const CLI::App& program);
+
+/// A manual page, in roff.
+struct ManPage {
+  std::string file;  ///< "wscvt-remesh.1"
+  std::string text;
+};
+
+/// Returns the pages of the program and of its commands, made from their helps. They contain no
+/// date, so that every build makes the same pages.
+std::vector<ManPage> man_pages(const CLI::App& program);
+
 }  // namespace wscvt::program

@@ -9,7 +9,6 @@
 
 #include "program/arguments/common_arguments.h"
 #include "program/arguments/grain_inputs.h"
-#include "program/arguments/remesh_arguments.h"
 #include "program/arguments/simulation_arguments.h"
 #include "program/arguments/volume_arguments.h"
 #include "program/call/command.h"

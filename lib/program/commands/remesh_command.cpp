@@ -8,7 +8,6 @@
 
 #include "program/arguments/common_arguments.h"
 #include "program/arguments/output_paths.h"
-#include "program/arguments/remesh_arguments.h"
 #include "program/arguments/simulation_arguments.h"
 #include "program/call/command.h"
 #include "program/call/exit_code.h"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #ifdef WSCVT_HAS_TIFF
-#include "toolbox/volume/tiff_lattice.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "toolbox/volume/tiff_pages.h"
 #include "toolbox/volume/volume_formats.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"

@@ -5,9 +5,12 @@
 
 #include <cstdarg>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "toolbox/volume/tiff_layout.h"
 #include "toolbox/volume/voxel_rows.h"
 
 namespace wscvt {
@@ -87,5 +90,27 @@ struct TiffPageList {
 /// pyramid, and one or two smaller pages before or behind the slices. Other pages of another form
 /// are listed, so that they are refused by name. The first slice becomes the current page.
 TiffPageList list_pages(const TiffFile& file);
+
+/// Returns the size of a voxel along x and y from the resolution of a page, in centimetres if the
+/// page has a unit; nothing without a resolution.
+std::optional<Vector3> voxel_of_resolution(const TiffFile& file);
+
+/// Sets the lattice from the text of ImageJ or OME, or from the page's resolution. Adds to the
+/// layout's notes. Throws Error(InputOutput), naming the file, for axes in several units.
+void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const TiffPage& page,
+                         TiffLayout& layout, const VolumeChoice& choice);
+
+/// A slice: a page of a file.
+struct SlicePage {
+  std::size_t file = 0;
+  std::uint32_t page = 0;
+};
+/// Returns the volume of slices that are pages of one file, or files of one page. `sample`: number
+/// of the selected sample of each voxel. Its rows throw Error(InputOutput), naming the file, for a
+/// page unlike `page` or damaged, for colours that are not equal and for an alpha that is not
+/// constant.
+std::unique_ptr<LabelVolume> volume_of_slices(const VolumeGeometry& geometry, const TiffPage& page,
+                                              std::int64_t sample, std::vector<std::string> files,
+                                              std::vector<SlicePage> slices);
 
 }  // namespace wscvt

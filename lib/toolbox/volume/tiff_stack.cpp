@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #ifdef WSCVT_HAS_TIFF
-#include "toolbox/volume/tiff_stack.h"
-
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "toolbox/volume/byte_order_check.h"
+#include "toolbox/volume/tiff_pages.h"
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/error.h"

@@ -7,10 +7,7 @@
 #ifdef WSCVT_HAS_TIFF
 #include <filesystem>
 
-#include "toolbox/volume/tiff_lattice.h"
-#include "toolbox/volume/tiff_layout.h"
 #include "toolbox/volume/tiff_pages.h"
-#include "toolbox/volume/tiff_stack.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/mesh_files/text_fields.h"
