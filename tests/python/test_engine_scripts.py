@@ -217,6 +217,12 @@ def scene_of(folder, load):
     return load(folder).Scene()
 
 
+def expect_places(folder, places):
+    with open(folder / "packing.csv", newline="") as table:
+        found = [[float(row[k]) for k in "xyz"] for row in csv.DictReader(table)]
+    np.testing.assert_allclose(found, places, rtol=1e-5, atol=1e-8)
+
+
 FAKE_LAMMPS = """
 lines = open("packing.data").read().split("Atoms\\n\\n")[1].split("\\n\\n")[0].splitlines()
 atoms = [line.split() for line in lines]
@@ -256,9 +262,7 @@ def test_lammps_gets_the_mass_and_the_moments_of_the_grains(tmp_path, load):
         for axis, moment in enumerate(grain.moments):
             along = turned(grain.turn, np.eye(3)[axis])
             np.testing.assert_allclose(tensor @ along, moment * along, atol=1e-9 * moment)
-    with open(folder / "packing.csv", newline="") as table:
-        for row, grain in zip(csv.DictReader(table), scene.grains):
-            np.testing.assert_allclose([float(row[k]) for k in "xyz"], grain.place - [0, 0, 1], rtol=1e-6, atol=1e-8)
+    expect_places(folder, [grain.place - [0, 0, 1] for grain in scene.grains])
     script = (folder / "packing.in").read_text()
     shear, least = 1e6 / 2.5, min(s[3] for spheres, _, _ in CLUMPS.values() for s in spheres)
     step = float(re.search(r"^timestep (\S+)", script, re.M)[1])
@@ -365,9 +369,7 @@ def test_mujoco_gets_a_model_of_decimetres_and_gives_grains_of_the_folder(tmp_pa
         moments = np.array(inertial.get("diaginertia").split(), float)
         np.testing.assert_allclose(moments, 2650 * 1e-10 * length ** 5 * np.array([0.02, 0.03, 0.04]), rtol=1e-6)
         np.testing.assert_allclose(np.array(body.get("pos").split(), float), length * grain.place, rtol=1e-6, atol=1e-6)
-    with open(folder / "packing.csv", newline="") as table:
-        for row, grain in zip(csv.DictReader(table), scene.grains):
-            np.testing.assert_allclose([float(row[k]) for k in "xyz"], grain.place, rtol=1e-5, atol=1e-8)
+    expect_places(folder, [grain.place for grain in scene.grains])
 
 
 FAKE_ROCKABLE = """
@@ -408,6 +410,7 @@ def test_rockable_gets_the_grains_within_walls_that_look_outwards(tmp_path, load
     for row, grain in zip(rows[5:], scene.grains):
         np.testing.assert_allclose(np.array(row[3:7], float), [grain.scale, *grain.place])
         np.testing.assert_allclose(np.array(row[13:17], float), grain.turn)
+    expect_places(folder, [grain.place for grain in scene.grains])
     values = dict(re.findall(r"^(\w+) (\S+)$", (folder / "input.txt").read_text(), re.M))
     # The fastest fall gives way to half of the rounding at most: m v^2 / 2 < k x^2 / 2.
     laws = dict(re.findall(r"^(\w+Contact) 1 1 (\S+)$", (folder / "input.txt").read_text(), re.M))
