@@ -186,7 +186,8 @@ scene = packing.Scene()
 places = [(x - 1.5, y - 1.5, z) for z in (0.6, 1.6, 30.6, 31.6) for y in range(4) for x in range(4)]
 if %r == "spheres":
     large = [(round(x + y + z + 3) %% 2) for x, y, z in places]
-    bodies = [np.array([[*p, 0.400001 + 0.2 * k], [*p, 0.3]]) for p, k in zip(places, large)]
+    # With a speck above each, whose ball about the grain reaches grains that it does not touch.
+    bodies = [np.array([[*p, 0.400001 + 0.2 * k], [*p[:2], p[2] + 0.9, 0.01]]) for p, k in zip(places, large)]
 else:
     turn = packing.rotation(np.array([0.8, 0.0, 0.48, 0.36]))  # a box about a part is larger than the part
     bodies = [[(0.7 * v @ turn.T + p, f) for v, f in scene.grains[0].shape.parts] for p in places]
