@@ -905,5 +905,60 @@ TEST(ConformingGrains, RefusesWhatItCannotRemesh) {
   EXPECT_NE(refused(2, -1.0), "");
 }
 
+// Twelve grains of 1,000 voxels, with numbers made by hand.
+TEST(ConformingLines, AreThoseOfTheNumbers) {
+  ConformingGrains grains;
+  grains.grains.resize(12);
+  std::vector<Label> labels;
+  for (std::size_t g = 0; g < 12; ++g) {
+    grains.grains[g].voxels = 1000;
+    labels.push_back(static_cast<Label>(10 * (g + 1)));
+  }
+  grains.walls.resize(20);
+  grains.mean_edge = 2.0;
+  grains.edge_variation = 0.25;
+  grains.shortest_edge = 0.3;
+  grains.smallest_angle = 20.0;
+  grains.flattest = 1;
+  grains.gained_voxels = 600;
+  grains.walls_across = 4;
+  grains.lost_walls = 3;
+  grains.volume_error = 2e-5;
+  EXPECT_TRUE(conforming_warnings(grains, labels).empty());
+  const std::vector<std::string> lines = conforming_lines(grains);
+  ASSERT_EQ(lines.size(), 6U);
+  EXPECT_TRUE(holds(lines[0], "12 grains with 20 common walls"));
+  EXPECT_TRUE(holds(lines[1], "mean 2, standard deviation 25 % of it, shortest 0.3"));
+  EXPECT_TRUE(holds(lines[2], "600 voxels, 5 % of the grains"));
+  EXPECT_TRUE(holds(lines[3], "do not touch: 4. Labels that touch without a wall: 3 pairs"));
+  EXPECT_EQ(lines[4], "Volumes: exact within 0.002 %");
+
+  // Of 1,060 voxels 60 fell off: 5.7 %. Of 1,050 only 4.8.
+  for (std::size_t g = 0; g < 12; ++g) grains.grains[g].fallen_off = g == 11 ? 50 : 60;
+  grains.grains[2].intersects = grains.grains[4].intersects = true;
+  grains.intersections = 7;
+  grains.volume_error = 0.004;
+  grains.smallest_angle = 2.0;
+  const std::vector<Sentence> warnings = conforming_warnings(grains, labels);
+  ASSERT_EQ(warnings.size(), 4U);
+  EXPECT_TRUE(
+      holds(warnings[0], "grains 10, 20, 30, 40, 50, 60, 70, 80, 90, 100 and 1 more: they hang"));
+  EXPECT_TRUE(holds(warnings[1], "err by up to 0.4 %"));
+  EXPECT_TRUE(
+      holds(warnings[2], "7 pairs of triangles intersect, in thin parts of the grains 30, 50."));
+  EXPECT_TRUE(holds(warnings[3], "2 degrees, at grain 20."));
+
+  // Fragments have no labels: they count from 1, as in their table.
+  for (ConformingGrain& grain : grains.grains) grain.fallen_off = 0;
+  grains.is_inaccurate = true;
+  grains.rms_distance = 0.02;
+  grains.largest_distance = 0.07;
+  const std::vector<Sentence> of_fragments = conforming_warnings(grains);
+  ASSERT_EQ(of_fragments.size(), 4U);
+  EXPECT_TRUE(holds(of_fragments[1], "rms 2 % of the equivalent radius, largest 7 %"));
+  EXPECT_TRUE(holds(of_fragments[2], "in thin parts of the fragments 3, 5."));
+  EXPECT_TRUE(holds(of_fragments[3], "at fragment 2."));
+}
+
 }  // namespace
 }  // namespace wscvt

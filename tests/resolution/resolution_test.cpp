@@ -107,6 +107,20 @@ TEST(MeshVoxels, HaveTheVolumeInEveryPose) {
   }
 }
 
+// Two bodies in one row have the voxels of each.
+TEST(MeshVoxels, LeaveGapsOpen) {
+  const IndexedMesh one = ellipsoid(Vector3(1.0, 0.8, 0.6));
+  IndexedMesh both = one;
+  for (const Triangle& t : one.triangles) {
+    const auto points = static_cast<std::int32_t>(one.points.size());
+    both.triangles.push_back({t[0] + points, t[1] + points, t[2] + points});
+  }
+  for (const Vector3& point : one.points) both.points.push_back(point + Vector3(2.5, 0.0, 0.0));
+  VoxelPose at;
+  at.shift = Vector3(1.3, 1.4, 1.6);
+  EXPECT_EQ(count_of(mesh_voxels(both, 0.1, at)), 2 * count_of(mesh_voxels(one, 0.1, at)));
+}
+
 TEST(MeshVoxels, RefuseWhatIsTooLongOrTooThin) {
   const IndexedMesh body = ellipsoid(Vector3::Ones());
   test::expect_error(ErrorCode::InvalidInput, [&] { mesh_voxels(body, 1e-5, {}); });
@@ -291,6 +305,49 @@ TEST(Resolution, IntervalsAreMadeOfChangeScatterAndVoxels) {
     }
   }
   EXPECT_GT(scattered, 3U);
+}
+
+// Seen again by voxels of the same size, a body is about the same: numbers of the volume come back,
+// and none leaves the range of its descriptor.
+TEST(Resolution, SeenAgainIsSeenAsBefore) {
+  const IndexedMesh body = read_mesh(std::string(WSCVT_MESHES_DIR) + "/angular_6000.ply");
+  const Resolution found = resolution_of(body, described(body).equivalent_diameter / 20.0, pose(2));
+  for (const char* key : {"volume", "equivalent_diameter", "axis_s_inertia", "axis_i_inertia",
+                          "axis_l_inertia", "feret_max", "convexity"}) {
+    const ResolvedValue& row = row_of(found, key);
+    EXPECT_NEAR(row.again / row.value, 1.0, 0.05) << key;
+    EXPECT_LT(row.scatter, 0.02 * row.value) << key;
+  }
+  std::size_t resolved = 0;
+  for (const ResolvedValue& row : found.rows) {
+    if (!row.is_resolved()) continue;
+    ++resolved;
+    EXPECT_GE(row.low, 0.0) << row.key;
+    EXPECT_LE(row.high, bias_of(row.key)->most) << row.key;
+  }
+  EXPECT_GT(resolved, 10U);
+}
+
+// The lengths of the detailed descriptors are those of the grain's own.
+TEST(Resolution, IsMeasuredWithTheLengthsOfTheCall) {
+  const double size = 0.05;
+  const IndexedMesh body = checked(
+      surface_of_voxels(mesh_voxels(ellipsoid(Vector3(1.0, 0.8, 0.6)), size, pose(1)), 20, size));
+  ResolutionOptions options;
+  options.voxel_size = size;
+  options.details.roundness_ball = 0.5;
+  options.details.roughness_cutoff = 0.8;
+  const DetailedDescriptors wide = describe_shape_in_detail(body, options.details, one_thread);
+  const Resolution found = measure_resolution(body, wide, options, one_thread);
+  const Resolution usual =
+      resolution_of(mesh_voxels(ellipsoid(Vector3(1.0, 0.8, 0.6)), size, pose(1)), size);
+  for (const char* key : {"roundness_wadell", "sq"}) {
+    const ResolvedValue& row = row_of(found, key);
+    EXPECT_NE(row.value, row_of(usual, key).value) << key;
+    // Nearer to itself than to the number with other lengths.
+    EXPECT_LT(std::abs(row.again - row.value), std::abs(row.again - row_of(usual, key).again))
+        << key << " " << row.value << " " << row.again << " " << row_of(usual, key).again;
+  }
 }
 
 TEST(Resolution, KeepsTheValuesAndTheirOrder) {
