@@ -421,6 +421,53 @@ TEST(RankCorrelation, IsSpearmansWithTies) {
   EXPECT_TRUE(std::isnan(rank_correlation(Eigen::VectorXd::Ones(9), uniform(9, 1)).value));
 }
 
+// Each trend against the ranks of its own grains.
+TEST(VoxelTrends, AreOfTheGrainsThatAreResolvedAndOfThoseThatAreTrusted) {
+  constexpr Eigen::Index grains = 40;
+  GrainSample sample;
+  sample.sizes = uniform(grains, 3);
+  sample.columns = {{"length", "mm"}, {"sphericity", ""}, {"roundness", ""}, {"none", ""}};
+  sample.values.resize(grains, 4);
+  sample.corrected.resize(grains, 4);
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    sample.values.col(k) = uniform(grains, 10 + static_cast<std::uint64_t>(k));
+    sample.corrected.col(k) = uniform(grains, 20 + static_cast<std::uint64_t>(k));
+  }
+  sample.corrected.col(3).setConstant(no_value);
+  sample.voxels_across = 30.0 * uniform(grains, 4);
+  for (const Eigen::Index k : {2, 5, 30}) sample.corrected(k, 1) = no_value;
+  sample.voxels_across[7] = no_value;
+  sample.voxels_across[8] = 15.0;
+  const std::vector<VoxelTrend> trends = voxel_trends(sample);
+  ASSERT_EQ(trends.size(), 2U) << "neither lengths nor what no grain has";
+  for (Eigen::Index column : {1, 2}) {
+    const VoxelTrend& trend = trends[static_cast<std::size_t>(column - 1)];
+    EXPECT_EQ(trend.name, sample.columns[static_cast<std::size_t>(column)].name);
+    Eigen::VectorXd raw = sample.values.col(column);
+    const Eigen::VectorXd corrected = sample.corrected.col(column);
+    Eigen::VectorXd trusted = corrected;
+    std::size_t resolved = 0;
+    std::size_t trusted_count = 0;
+    for (Eigen::Index k = 0; k < grains; ++k) {
+      if (std::isnan(corrected[k])) raw[k] = no_value;
+      if (!(sample.voxels_across[k] >= 15.0)) trusted[k] = no_value;
+      if (std::isfinite(raw[k])) ++resolved;
+      if (std::isfinite(trusted[k])) ++trusted_count;
+    }
+    EXPECT_EQ(trend.count, resolved);
+    EXPECT_EQ(trend.trusted_count, trusted_count);
+    EXPECT_LT(trusted_count, resolved - 5);
+    const auto expected = [&](const Eigen::VectorXd& values) {
+      return test::plain_rank_correlation(sample.sizes, values);
+    };
+    EXPECT_NEAR(trend.raw.value, expected(raw), 1e-12);
+    EXPECT_NEAR(trend.corrected.value, expected(corrected), 1e-12);
+    EXPECT_NEAR(trend.trusted.value, expected(trusted), 1e-12);
+  }
+  sample.voxels_across.resize(0);
+  EXPECT_TRUE(voxel_trends(sample).empty());
+}
+
 TEST(SampleComparison, DistancesOfKnownSamples) {
   const auto of = [](const std::vector<double>& values, const std::vector<double>& weights) {
     const auto n = static_cast<Eigen::Index>(values.size());

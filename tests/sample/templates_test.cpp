@@ -173,6 +173,26 @@ TEST(Templates, AreCloserThanRandomGrains) {
   }
 }
 
+// The distance of one choice varies by .3 of its mean from seed to seed, that of 20 by .07.
+TEST(Templates, AreComparedWithTheMeanOfManyRandomChoices) {
+  const MadeSample sample(40, 6);
+  constexpr int seeds = 10;
+  Eigen::MatrixXd random(seeds, 4);
+  for (int seed = 0; seed < seeds; ++seed) {
+    const TemplateDistances found =
+        choose_templates(sample.descriptors, sample.masses,
+                         with(2, static_cast<std::uint64_t>(seed) + 1), Execution(1))
+            .random;
+    random.row(seed) << found.by_number[0], found.by_number[1], found.by_mass[0], found.by_mass[1];
+  }
+  for (Eigen::Index column = 0; column < 4; ++column) {
+    const Eigen::VectorXd values = random.col(column);
+    const double mean = values.mean();
+    EXPECT_GT(mean, 0.2);
+    EXPECT_LT(std::sqrt((values.array() - mean).square().mean()), 0.2 * mean) << column;
+  }
+}
+
 // Three kinds of grains in known parts: three templates must be one of each kind, with those parts.
 TEST(Templates, FindTheWeightsOfAMixture) {
   const double values[3][2] = {{0.0, 9.0}, {1.0, 2.0}, {4.0, 5.0}};
