@@ -25,6 +25,7 @@
 #include "wscvt/base/triangle_geometry.h"
 #include "wscvt/measures/descriptors.h"
 #include "wscvt/mesh_files/mesh_io.h"
+#include "wscvt/repair/overhangs.h"
 
 namespace wscvt {
 namespace {
@@ -175,6 +176,37 @@ TEST_F(GrownGrains, HaveTheNumbersOfTheirMeshesAndTheLogHasTheirMeans) {
   double sum = 0.0;
   for (const double one : collage) sum += one;
   EXPECT_NEAR(number_behind(grown.lines, "follow one donor: "), sum / 6.0, 0.005 * sum);
+}
+
+TEST_F(GrownGrains, WithOverhangsHaveThoseOfTheirMeshes) {
+  const SampleGrids grids(6);
+  const std::vector<SampleGrain> sample = test::bent_sample(grids);
+  GrowJob job = job_of(4);
+  job.nodes = 200;
+  job.degree = 6;
+  RealGrains bent{sample, {}, 0};
+  for (std::size_t k = 0; k < sample.size(); ++k) bent.files.push_back(std::to_string(k) + ".ply");
+  const MadeSample grown = grow_grains(job, std::move(bent), grids, {1});
+  // In %.
+  const auto overhang = [](const IndexedMesh& mesh) {
+    const Vector3 centre = describe_shape(mesh, Execution(1)).centroid;
+    return 100.0 * overhang_solid_angle(mesh, centre, Execution(1));
+  };
+  double sum = 0.0;
+  for (const Row& row : rows()) {
+    const double found = std::stod(row.at("overhang [%]"));
+    EXPECT_NEAR(found, overhang(read_mesh(path("out/" + row.at("file")))), 1e-3);
+    sum += found;
+  }
+  EXPECT_GT(sum, 1.0);
+  EXPECT_NEAR(number_behind(grown.lines, "Overhang fraction, mean: "), sum / 4.0, 0.002 * sum);
+  double real = 0.0;
+  const GrownMeshes meshes(job.nodes, Execution(1));
+  for (const SampleGrain& grain : sample) {
+    real += overhang(meshes.mesh(grain.radial, 1.0, grain.radial_offset));
+  }
+  real /= static_cast<double>(sample.size());
+  EXPECT_NEAR(number_behind(grown.lines, "in the sample "), real, 0.006 * real);
 }
 
 TEST_F(GrownGrains, HaveEachPartOfAGivenSizeCurveOnce) {

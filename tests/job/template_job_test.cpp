@@ -188,6 +188,25 @@ TEST_F(TemplatesOfASample, HaveTheNumbersOfTheirGrains) {
   }
 }
 
+// A table's diameter is that of the scan that its row names.
+TEST_F(TemplatesOfASample, AreRefusedIfTheirScanIsNotTheOneOfTheTable) {
+  DescribedSample of = sample();
+  for (std::size_t k = 0; k < count_; ++k) {
+    const double volume = describe_shape(body(of.files[k]), Execution(1)).volume;
+    of.diameters[k] = std::cbrt(6.0 / test::pi * volume);
+    of.measured_before.insert(of.files[k]);
+  }
+  EXPECT_EQ(make(job(), of).end.done, 3U);
+  const std::string source = test::csv_records(content("out/templates.csv"))[2][2];
+  std::filesystem::remove_all(path("out"));
+  const auto chosen = static_cast<std::size_t>(source.at(1) - '0');
+  of.diameters[chosen] *= 1.00001;
+  EXPECT_ERROR(make(job(), of), InputOutput);
+  // What was measured from the scan itself is not compared.
+  of.measured_before.erase(of.files[chosen]);
+  EXPECT_EQ(make(job(), of).end.done, 3U);
+}
+
 TEST_F(TemplatesOfASample, GoOnOnlyWithTheSameOptionsAndAsAWholeHaveTheFilesOfTheSample) {
   const std::vector<std::function<void(TemplateJob&)>> changes = {
       [](TemplateJob&) {},

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <set>
 
-#include "grains/bent_grain.h"
 #include "support/expect_error.h"
 #include "support/random_sample.h"
 #include "toolbox/sample/distribution.h"
@@ -261,22 +260,9 @@ TEST(GrainGrower, KeepsTheDistributionsOfGrainsThatItHasNotSeen) {
             0.195);
 }
 
-/// Crescents and C-shapes of other proportions, and two star-shaped grains.
-std::vector<SampleGrain> bent_sample(const SampleGrids& grids) {
-  std::vector<SampleGrain> sample = test::random_sample(2, grids, 8);
-  for (const char* name : {"crescent", "C-shape"}) {
-    const IndexedMesh mesh = test::bent_grain_mesh(test::bent_grain(name), 900);
-    for (const Vector3& stretch : {Vector3(1.0, 1.0, 1.0), Vector3(1.3, 1.1, 0.8),
-                                   Vector3(0.9, 1.2, 1.1), Vector3(1.1, 0.9, 1.3)}) {
-      sample.push_back(sample_grain(test::scaled(mesh, stretch), grids, Execution(1)));
-    }
-  }
-  return sample;
-}
-
 TEST(GrainGrower, GrowsGrainsWithOverhangs) {
   const SampleGrids grids(12);
-  const std::vector<SampleGrain> sample = bent_sample(grids);
+  const std::vector<SampleGrain> sample = test::bent_sample(grids);
   const GrainGrower grower(sample, grids, grown_with(3, 1));
   const GrownMeshes meshes(400, Execution(1));
   double real = 0.0, grown = 0.0;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "grains/bent_grain.h"
 #include "support/random_harmonics.h"
+#include "support/test_shapes.h"
 #include "toolbox/sample/sample_grain.h"
 #include "wscvt/base/error.h"
 
@@ -29,6 +31,19 @@ inline std::vector<SampleGrain> random_sample(int count, const SampleGrids& grid
   std::vector<SampleGrain> sample;
   for (const HarmonicSurface& surface : random_surfaces(count, grids.degree(), seed)) {
     sample.push_back(sample_grain(surface, grids, Execution(1)));
+  }
+  return sample;
+}
+
+/// Crescents and C-shapes of other proportions, and two star-shaped grains.
+inline std::vector<SampleGrain> bent_sample(const SampleGrids& grids) {
+  std::vector<SampleGrain> sample = random_sample(2, grids, 8);
+  for (const char* name : {"crescent", "C-shape"}) {
+    const IndexedMesh mesh = bent_grain_mesh(bent_grain(name), 900);
+    for (const Vector3& stretch : {Vector3(1.0, 1.0, 1.0), Vector3(1.3, 1.1, 0.8),
+                                   Vector3(0.9, 1.2, 1.1), Vector3(1.1, 0.9, 1.3)}) {
+      sample.push_back(sample_grain(scaled(mesh, stretch), grids, Execution(1)));
+    }
   }
   return sample;
 }
