@@ -103,6 +103,25 @@ TEST(GrainGrower, KeepsFormAndAmplitudesOfASampleThatHasOneOfEach) {
   }
 }
 
+// By .15 of the deviation of the sizes' logarithms about the base grain's size.
+TEST(GrainGrower, SizesAreNearThoseOfTheBaseGrains) {
+  const SampleGrids grids(4);
+  std::vector<SampleGrain> sample = test::random_sample(8, grids, 5);
+  for (std::size_t k = 0; k < 8; ++k) sample[k].radius = std::exp(0.25 * static_cast<double>(k));
+  // Of 0 to 7 the variance is 63 / 12.
+  const double expected = 0.15 * 0.25 * std::sqrt(63.0 / 12.0);
+  const GrainGrower grower(sample, grids, grown_with(2, 4));
+  double squares = 0.0;
+  constexpr std::size_t count = 48;
+  for (std::size_t k = 0; k < count; ++k) {
+    const GrownGrain grain = grower.grow(k);
+    const double moved = std::log(grain.radius / sample[grain.donors.front()].radius);
+    squares += moved * moved / static_cast<double>(count);
+  }
+  // The deviation of 48 normal numbers errs by a tenth.
+  EXPECT_NEAR(std::sqrt(squares) / expected, 1.0, 0.3);
+}
+
 // Whatever the sample says of its form.
 TEST(GrainGrower, GrowsUnitVolumes) {
   const SampleGrids grids(degree);
