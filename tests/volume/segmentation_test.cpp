@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <random>
@@ -1251,18 +1252,21 @@ TEST_F(SegmentationOfAFile, IslandsAreThoseOfSlices) {
 
 // A rising background, as of drift or beam hardening, makes peaks of its own and grains too large.
 TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
-  const auto doubts = [&](Label rise) {
+  const auto doubts = [&](Label rise, bool is_dark = false) {
     made_ = MadeVolume({48, 30, 26});
     std::mt19937_64 engine(test::announced(7));
     std::normal_distribution<double> noise(0.0, 4.0);
     made_.set([&](const Vector3& p) {
       const bool is_grain =
           (p - Vector3(12, 14, 13)).norm() < 8.0 || (p - Vector3(33, 16, 12)).norm() < 8.0;
-      return (is_grain ? 1600.0 : 600.0) + 10.0 * noise(engine) + rise * p.x() / 48.0;
+      const double grey = (is_grain ? 1600.0 : 600.0) + 10.0 * noise(engine) + rise * p.x() / 48.0;
+      return is_dark ? 3000.0 - grey : grey;
     });
     write_made();
+    SegmentationOptions options;
+    options.dark = is_dark;
     std::string text;
-    for (const std::string& line : segmentation_lines(segmented())) text += line + "\n";
+    for (const std::string& line : segmentation_lines(segmented(options))) text += line + "\n";
     return text;
   };
   EXPECT_FALSE(holds(doubts(0), "grey values from"));
@@ -1270,6 +1274,19 @@ TEST_F(SegmentationOfAFile, DoubtsABackgroundThatIsNotEven) {
   const std::string text = doubts(600);
   EXPECT_TRUE(holds(text, "white_tophat"));
   EXPECT_FALSE(holds(text, "as of several minerals"));
+  // A tenth of the void is darker than this in the first and the last quarter, 600 + 600 / 40 and
+  // 450 more; of dark grains a tenth is brighter.
+  for (const bool is_dark : {false, true}) {
+    const std::string told = doubts(600, is_dark);
+    const std::string words = "has grey values from ";
+    ASSERT_TRUE(holds(told, words));
+    double least = 0.0, largest = 0.0;
+    ASSERT_EQ(
+        std::sscanf(told.c_str() + told.find(words) + words.size(), "%lf to %lf", &least, &largest),
+        2);
+    EXPECT_NEAR(least, is_dark ? 1935.0 : 615.0, 40.0);
+    EXPECT_NEAR(largest, is_dark ? 2385.0 : 1065.0, 40.0);
+  }
 }
 
 // In much void most neighbours are equal without noise, as in labels, but the edges are of a scan.
