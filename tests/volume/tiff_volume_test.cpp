@@ -616,7 +616,9 @@ TEST_F(TiffVolume, ReadsTheChosenNumberOfAVoxel) {
       }
       all.push_back(mixed);
     }
-    expect_refused_of(stack, all, {is_planar ? "3 channels" : "picture in colours"});
+    // tifffile notes the planes as a dimension, which are no slices.
+    stack.text = is_planar ? R"({"shape": [3, 3, 5, 7]})" : "";
+    expect_refused_of(stack, all, {"picture in colours"});
     expect_made("a.tif", channel(1));
     EXPECT_EQ(labels_of("a.tif", channel(3)), labels(120)) << is_planar;
   }
@@ -870,12 +872,18 @@ TEST_F(TiffVolume, TakesThreeEqualColoursForOneNumber) {
   stack.bits = 8;
   stack.photometric = PHOTOMETRIC_RGB;
   std::vector<std::string> all;
+  std::vector<std::string> planes;
   for (const std::string& one : pages_of<std::uint8_t>()) {
     std::string three;
     for (const char c : one) three += std::string(3, c);
     all.push_back(three);
+    planes.push_back(one + one + one);
   }
   expect_made_of(stack, all);
+  stack.is_planar = true;
+  expect_made_of(stack, planes);
+  ++planes.back().back();
+  expect_refused_of(stack, planes, {"picture in colours"});
 }
 
 TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {

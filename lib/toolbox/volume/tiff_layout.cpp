@@ -213,7 +213,9 @@ TiffLayout layout_of_tifffile(const Json& json, std::int64_t pages, const TiffPa
     refuse_volume(path, "has a \"shape\" in its text that fits no page. Export it again.");
   }
   check_order_of(letters, counts, page, path);
-  if (letters.find_first_of("ZCTS") == std::string::npos) refuse_channels_inside(counts, path);
+  if (page.samples == 1 && letters.find_first_of("ZCTS") == std::string::npos) {
+    refuse_channels_inside(counts, path);
+  }
   const std::size_t of_page = dimensions_of_page(counts, page);
   if (of_page == 0) {
     refuse_volume(path, "has pages of " + std::to_string(page.height) + " x " +

@@ -104,7 +104,7 @@ TiffPage page_of(const TiffFile& file) {
   page.samples = samples;
   page.is_planar = planes == PLANARCONFIG_SEPARATE && samples > 1;
   page.shows_0_as_white = photometric == PHOTOMETRIC_MINISWHITE;
-  page.shows_colours = photometric == PHOTOMETRIC_RGB && samples > 2 && !page.is_planar;
+  page.shows_colours = photometric == PHOTOMETRIC_RGB && samples > 2;
   std::uint16_t extra_samples = 0;
   std::uint16_t* kinds = nullptr;
   TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &extra_samples, &kinds);

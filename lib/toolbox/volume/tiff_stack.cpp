@@ -107,7 +107,16 @@ class TiffStack : public LabelVolume {
 
   void read_band() {
     band_.resize(row_bytes_ * std::min(band_rows_, page_.height - next_row_));
-    const std::uint16_t plane = page_.is_planar ? sample_ : std::uint16_t{0};
+    read_plane(page_.is_planar ? sample_ : std::uint16_t{0});
+    if (!page_.is_planar || !page_.shows_colours) return;
+    const std::vector<char> red = band_;
+    for (const std::uint16_t plane : {std::uint16_t{1}, std::uint16_t{2}}) {
+      read_plane(plane);
+      if (band_ != red) refuse_colours(file_->path());
+    }
+  }
+
+  void read_plane(std::uint16_t plane) {
     if (tile_width_ == 0) {
       read_strip(plane);
     } else {

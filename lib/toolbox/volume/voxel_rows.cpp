@@ -230,7 +230,10 @@ void labels_of(const char* bytes, const VoxelType& type, LabelCoding& coding,
 void check_colours_equal(const char* colours, std::size_t size, const std::string& path) {
   const bool are_equal = std::memcmp(colours, colours + size, size) == 0 &&
                          std::memcmp(colours, colours + 2 * size, size) == 0;
-  if (are_equal) return;
+  if (!are_equal) refuse_colours(path);
+}
+
+void refuse_colours(const std::string& path) {
   refuse_volume(path,
                 "is a picture in colours. A colour is no label: one channel would mix the grains. "
                 "Export the labels themselves, as grey numbers of 8, 16 or 32 bits.");

@@ -31,6 +31,9 @@ void labels_of(const char* bytes, const VoxelType& type, LabelCoding& coding,
 /// each, differ.
 void check_colours_equal(const char* colours, std::size_t size, const std::string& path);
 
+/// Throws that error.
+[[noreturn]] void refuse_colours(const std::string& path);
+
 /// Checks the counts of voxels in a file. Throws Error(InputOutput), naming the file `path`, if one
 /// is below 1 or above a million.
 VoxelCounts voxel_counts(const std::array<std::int64_t, 3>& counts, const std::string& path);
