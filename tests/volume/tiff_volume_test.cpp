@@ -886,6 +886,30 @@ TEST_F(TiffVolume, TakesThreeEqualColoursForOneNumber) {
   expect_refused_of(stack, planes, {"picture in colours"});
 }
 
+// It writes the resolution that its caller gave as per inch, and the caller's text beside it.
+TEST_F(TiffVolume, ReadsTheResolutionBesideTifffilesSpacing) {
+  const auto expect_size = [&](double resolution, int unit, const std::string& text,
+                               const Vector3& size, const std::string& unit_read) {
+    SCOPED_TRACE(text + std::to_string(resolution));
+    TiffPages stack = as();  // the resolution along y is half of that along x
+    stack.resolution = resolution;
+    stack.resolution_unit = unit;
+    stack.text = R"({"shape": [3, 5, 7], "axes": "ZYX", "spacing": )" + text + "}";
+    expect_made_of(stack, pages());
+    const VolumeGeometry read = geometry("a.tif");
+    EXPECT_LT((read.point({1, 1, 1}) - read.corner - size).norm(), 1e-6 * size.norm());
+    EXPECT_EQ(read.unit, unit_read);
+  };
+  const std::string um = R"(0.8, "unit": "um")";
+  expect_size(2.0, RESUNIT_INCH, um, {0.5, 1.0, 0.8}, "um");
+  expect_size(2.0, RESUNIT_NONE, um, {0.5, 1.0, 0.8}, "um");
+  expect_size(20000.0, RESUNIT_CENTIMETER, um, {0.5, 1.0, 0.8}, "um");
+  expect_size(50800.0, RESUNIT_INCH, um, {0.5, 1.0, 0.8}, "um");
+  expect_size(2000.0, RESUNIT_INCH, R"(0.0008, "unit": "mm")", {5e-4, 1e-3, 8e-4}, "mm");
+  expect_size(20000.0, RESUNIT_CENTIMETER, R"(0.0008, "unit": "mm")", {5e-4, 1e-3, 8e-4}, "mm");
+  expect_size(2.0, RESUNIT_INCH, "0.8", {0.5, 1.0, 0.8}, "");
+}
+
 TEST_F(TiffVolume, DropsAScreensResolutionThatContradictsTheSlices) {
   for (const auto& [unit, dots] : std::vector<std::pair<std::string, double>>{
            {"inch", 72.0}, {"inch", 96.0}, {"inch", 300.0}, {"cm", 72.0 / 2.54}}) {

@@ -73,19 +73,25 @@ bool is_by_pages(const TiffLayout& layout) {
 }
 
 /// Takes the page's resolution in its own unit where the text's unit would make the voxels flat by
-/// the ratio of both: some programs note um, but a resolution per cm. `per_cm`: the page's lengths.
+/// the ratio of both: some programs note um, but a resolution per cm. tifffile writes what its
+/// caller gave, per inch if nothing else was said: the unit that fits the distance of slices is
+/// taken. `per_cm`: the page's lengths.
 void take_unit_of_page(const Vector3& per_cm, TiffLayout& layout, Vector3& size) {
-  const double factor = layout.unit == "um" ? 1e4 : layout.unit == "nm" ? 1e7 : 0.0;
+  const double unit = nanometres(layout.unit);
+  if (unit == 0.0) return;
+  constexpr double cm = 1e7;  // nanometres
   constexpr double flat = 100.0;
   constexpr double far = 10.0;
-  const double taken = factor * per_cm.x();
-  const bool is_alike = size.z() < far * taken && taken < far * size.z();
-  if (size.z() < flat * size.x() || !is_alike) return;
-  size.x() = factor * per_cm.x();
-  size.y() = factor * per_cm.y();
+  const Vector3 taken = cm / unit * per_cm;
+  const auto ratio = [&](double across) { return std::max(size.z() / across, across / size.z()); };
+  const bool is_taken = layout.writer == "tifffile"
+                            ? ratio(taken.x()) < ratio(size.x())
+                            : size.z() >= flat * size.x() && ratio(taken.x()) < far;
+  if (!is_taken) return;
+  size.head(2) = taken.head(2);
   layout.notes.push_back(
       "The resolution was taken per cm or inch, as the TIFF says: in " + layout.unit +
-      ", as ImageJ notes it, the voxels would be flat. If this is wrong, give the size by " +
+      ", as ImageJ notes it, the voxels would be flatter. If this is wrong, give the size by " +
       mention("voxel-size", "X,Y,Z") + ".");
 }
 }  // namespace
@@ -102,10 +108,14 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const T
                                    in_quotes(layout.other_unit) +
                                    ". Give the size in one unit by " + mention("voxel-size") + ".");
   }
+  // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
+  constexpr double finest_dot_cm = 0.999 * 2.54 / 1200.0;
+  const bool is_fine = resolution && unit != RESUNIT_NONE && resolution->x() < finest_dot_cm &&
+                       resolution->y() < finest_dot_cm;
   const bool is_by_imagej = layout.writer == "ImageJ";
   // Their texts have the size along z only. OME's has all.
   if (size.z() > 0.0 && resolution &&
-      (is_by_imagej || (is_by_pages(layout) && unit == RESUNIT_NONE))) {
+      (is_by_imagej || (is_by_pages(layout) && !(is_fine && layout.unit.empty())))) {
     // In ImageJ's unit, not the page's.
     size.x() = unit == RESUNIT_INCH ? resolution->x() / 2.54 : resolution->x();
     size.y() = unit == RESUNIT_INCH ? resolution->y() / 2.54 : resolution->y();
@@ -113,9 +123,10 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const T
     const double cm = layout.unit == "inch" ? 2.54 : layout.unit == "cm" ? 1.0 : 0.1;
     const bool has_coarse_unit = cm >= 1.0 || layout.unit == "mm";
     if (has_coarse_unit && is_of_a_screen(cm * size, size)) {
-      layout.notes.push_back("ImageJ noted voxels of " + format_number(size.x(), 4) + " x " +
-                             format_number(size.y(), 4) + " x " + format_number(size.z(), 4) + " " +
-                             layout.unit + ", " + format_number(2.54 / (cm * size.x())) +
+      layout.notes.push_back(layout.writer + " noted voxels of " + format_number(size.x(), 4) +
+                             " x " + format_number(size.y(), 4) + " x " +
+                             format_number(size.z(), 4) + " " + layout.unit + ", " +
+                             format_number(2.54 / (cm * size.x())) +
                              " per inch: the resolution of a screen, not of a scan. It was not "
                              "used.");
       size = Vector3::Zero();
@@ -127,17 +138,13 @@ void set_lattice_of_tiff(VolumeGeometry& geometry, const TiffFile& file, const T
                              "Give it by " +
                              mention("voxel-size", "X,Y,Z") + ".");
     }
-  } else if (is_by_pages(layout) && resolution && unit != RESUNIT_NONE) {
-    // Screens and printers have up to 1200 dots per inch, 0.021 mm; a finer one is an instrument's.
-    constexpr double finest_dot_cm = 2.54 / 1200.0;
-    if (resolution->x() < 0.999 * finest_dot_cm && resolution->y() < 0.999 * finest_dot_cm) {
-      size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
-      layout.unit = "mm";
-      geometry.size_source = "the TIFF's resolution";
-      layout.notes.push_back(
-          "Voxel size from the TIFF's resolution, along z as along x: " + format_number(size.x()) +
-          " mm. Give another by " + mention("voxel-size", "X,Y,Z") + ".");
-    }
+  } else if (is_by_pages(layout) && is_fine) {
+    size = 10.0 * Vector3(resolution->x(), resolution->y(), resolution->x());
+    layout.unit = "mm";
+    geometry.size_source = "the TIFF's resolution";
+    layout.notes.push_back(
+        "Voxel size from the TIFF's resolution, along z as along x: " + format_number(size.x()) +
+        " mm. Give another by " + mention("voxel-size", "X,Y,Z") + ".");
   } else if (layout.writer != "OME") {
     size = Vector3::Zero();
   }
