@@ -133,6 +133,13 @@ TEST_F(Bodies, SaysWhichCommandTakesAnotherInput) {
                   {"nothere o.ply", 2, "does not exist"}},
                  {"o.ply"});
   expect_refused("describe", {{"scans", 2, "wscvt batch FOLDER -o OUT"}}, {});
+  expect_refused("grow", {{"volume.vtk -o out", 2, "wscvt extract VOLUME OUT"}}, {});
+  fs::create_directory(path("ct.zarr"));
+  std::ofstream(path("ct.zarr/.zarray")) << "{}";
+  expect_refused("remesh", {{"ct.zarr o.ply", 2, "wscvt batch VOLUME -o OUT"}}, {});
+  for (const char* command : {"batch", "clump", "convex"}) {
+    expect_refused(command, {{"ct.zarr -o out", 1, "numpy.save(\"labels.npy\", zarr.open("}}, {});
+  }
   expect_refused("batch", {{"nothere -o out", 2, "There is no file and no folder"}},
                  {"out/grains.csv"});
   expect_refused("sample", {{"/dev/zero", 1, "is a folder or a device"}}, {});

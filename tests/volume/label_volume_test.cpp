@@ -526,18 +526,36 @@ TEST_F(LabelVolumeOfAFile, NamesAWayFromFormatsThatAreNotRead) {
   write("group/.zgroup", "{}");
   write("group/1/.zarray", "{}");
   write("group/0/.zarray", "{}");
+  for (const char* folder : {"nested/a/b", "third/a/b/c", "third_array/c"}) {
+    fs::create_directories(folder_ / folder);
+  }
+  write("nested/.zgroup", "{}");
+  write("nested/a/.zgroup", "{}");
+  write("nested/a/b/.zarray", "{}");
+  write("third/zarr.json", R"({"node_type": "group"})");
+  write("third/a/zarr.json", R"({"node_type": "group"})");
+  write("third/a/b/zarr.json", R"({"node_type": "array"})");
+  write("third_array/zarr.json", R"({"node_type": "array"})");
   for (const auto& [name, way] :
        std::vector<std::pair<std::string, std::string>>{{"a.dcm", "dcm2niix"},
                                                         {"IM0001", "dcm2niix"},
                                                         {"series", "dcm2niix"},
                                                         {"a.zarr", "a.zarr\", mode=\"r\")[:])"},
                                                         {"group", "mode=\"r\")[\"0\"][:])"},
+                                                        {"nested", "mode=\"r\")[\"a/b\"][:])"},
+                                                        {"third", "mode=\"r\")[\"a/b\"][:])"},
+                                                        {"third_array", "mode=\"r\")[:])"},
                                                         {"packed.am", "packed, or a text"},
                                                         {"text.am", "packed, or a text"},
                                                         {"a.raw", "\"file\": \"a.raw\""}}) {
     const std::string file = path(name);
     EXPECT_TRUE(test::holds(test::refusal(ErrorCode::InputOutput, [&] { open_volume(file); }), way))
         << name;
+    EXPECT_TRUE(is_volume(file)) << name << ": batch and others open it, and say the same";
+  }
+  write("series/a.ply", "");
+  for (const char* name : {"series", "series/a.ply", "none.dcm"}) {
+    EXPECT_FALSE(is_volume(path(name))) << name;
   }
   // The way from AmiraMesh, followed.
   const std::string way = test::refusal(ErrorCode::InputOutput, [&] { open_volume(path("a.am")); });

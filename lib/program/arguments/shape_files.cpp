@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "program/arguments/common_arguments.h"
 #include "program/terminal/work.h"
 #include "toolbox/sample/grain_table.h"
 #include "toolbox/sample/sample_grain.h"
@@ -86,7 +87,7 @@ std::vector<std::string> shape_files(const std::vector<std::string>& inputs) {
     files.insert(files.end(), found.begin(), found.end());
   }
   for (const std::string& file : files) {
-    if (!is_coefficient_file(file)) check_mesh_format(file, MeshUse::Read);
+    if (!is_coefficient_file(file)) check_mesh_input(file);
   }
   return files;
 }

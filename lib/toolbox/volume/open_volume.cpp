@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "toolbox/volume/volume_formats.h"
 #include "toolbox/volume/voxel_rows.h"
@@ -97,16 +98,25 @@ bool is_dicom(const fs::path& path) {
 
 std::string between_quotes(const std::string& text) { return "\"" + text + "\""; }
 
-/// Returns the name of the first array in a group of Zarr, as Python names it; empty for an array.
-std::string array_in_zarr(const fs::path& folder) {
+/// Whether a folder is an array of Zarr, of version 2 or 3, and no group of arrays.
+bool is_array_of_zarr(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder / ".zarray", error)) return "";
+  if (fs::exists(folder / ".zarray", error)) return true;
+  std::ifstream file(folder / "zarr.json");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains("node_type") && json["node_type"] == "array";
+}
+
+/// Returns the first array in a group of Zarr, as Python names it; empty for an array.
+std::string array_in_zarr(const fs::path& folder) {
+  if (is_array_of_zarr(folder)) return "";
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
-    const bool is_array =
-        fs::exists(path / ".zarray", error) || fs::exists(path / "zarr.json", error);
-    if (is_array) names.push_back(path.filename().string());
+  std::error_code error;
+  auto entry = fs::recursive_directory_iterator(folder, error);
+  for (; entry != fs::recursive_directory_iterator(); entry.increment(error)) {
+    if (!entry->is_directory(error) || !is_array_of_zarr(entry->path())) continue;
+    names.push_back(entry->path().lexically_relative(folder).generic_string());
+    entry.disable_recursion_pending();
   }
   return names.empty() ? "" : *std::min_element(names.begin(), names.end());
 }
@@ -163,10 +173,11 @@ std::string raw_description_of_amira(const std::string& path) {
          ", \"file\": " + between_quotes(fs::path(path).filename().string()) + "}";
 }
 
-/// Returns a way from a format that is not read to one that is; empty for unknown formats. Each way
-/// was tried, see tests/volume/label_volume_test.cpp.
+/// Returns a way from a format that is not read to one that is; empty for other formats and for
+/// what does not exist. Each way was tried, see tests/volume/label_volume_test.cpp.
 std::string way_from(const std::string& path) {
   std::error_code error;
+  if (is_mesh_format(path, MeshUse::Read) || !fs::exists(path, error)) return "";
   const std::string ending = ending_of(path);
   bool has_dicom = ending == ".dcm" || ending == ".ima" || ending == ".dicom";
   bool is_zarr = ending == ".zarr";
@@ -174,6 +185,7 @@ std::string way_from(const std::string& path) {
   if (fs::is_directory(path, error)) {
     for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
       const std::string name = entry.path().filename().string();
+      if (is_mesh_file(name)) return "";
       is_zarr = is_zarr || name == ".zarray" || name == ".zgroup" || name == "zarr.json";
       has_dicom = has_dicom || (entry.is_regular_file(error) && is_dicom(entry.path()));
     }
@@ -315,8 +327,10 @@ void set_lattice(VolumeGeometry& geometry, const Eigen::Matrix3d& axes, const Ve
 
 bool is_volume(const std::string& path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return is_stack(path);
-  return format_of(path) != nullptr && !holds_mesh(path);
+  const bool is_read = fs::is_directory(path, error)
+                           ? is_stack(path)
+                           : format_of(path) != nullptr && !holds_mesh(path);
+  return is_read || !way_from(path).empty();
 }
 
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {

@@ -12,7 +12,8 @@
 namespace wscvt {
 
 /// Returns whether a name is a volume's: it has an ending of the formats below, or is a folder with
-/// TIFF files and no meshes.
+/// slices and no meshes; or it is DICOM, Zarr, AmiraMesh or a raw file, which open_volume refuses
+/// with the way to one of these formats.
 bool is_volume(const std::string& path);
 
 /// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The ending
