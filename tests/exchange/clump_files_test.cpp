@@ -238,6 +238,7 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
         "# clump\n0,0,0.5,1\n0.5,-1,0,0.9\n", "x,y,z,r,diameter\n0,0,0.5,1,2\n0.5,-1,0,0.9,1.8\n",
         "diameter,radius,x,y,z\n2,1,0,0,0.5\n1.8,0.9,0.5,-1,0\n",
         "sep=;\nx [mm];y [mm];z [mm];r [um]\n0;0;0.5;1000\n0.5;-1;0;900\n",
+        "x;y;z;r\n0;0;0,5;1,0\n0,5;-1;0;0,9\n", "0,0;0;0.5;1\n0,5;-1;0;0,9\n",
         "x[um] y[um] z[um] diameter[mm]\n0 0 0.5 0.002\n0.5 -1 0 0.0018\n"}) {
     SCOPED_TRACE(text);
     const std::string name = file("spheres.csv", text);
@@ -261,10 +262,11 @@ TEST_F(ClumpFiles, OfOthersAreReadByTheirHeadingOrWithoutOne) {
   EXPECT_TRUE(holds(sentence, "x, y, z and r"));
   EXPECT_FALSE(is_clump_file(file("points.xyz", "0 0 0 1\n")));
   // No mesh ends in .txt, so that the table is what is told to be wrong.
-  const std::string five = file("five.txt", "0 0 0 1 7\n");
-  EXPECT_TRUE(is_clump_file(five));
-  EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { read_clump(five); }),
-                    "not a table of spheres"));
+  for (const std::string& five : {file("five.txt", "0 0 0 1 7\n"), file("five.csv", "0,0,0,1,7")}) {
+    EXPECT_TRUE(is_clump_file(five));
+    EXPECT_TRUE(holds(test::refusal(ErrorCode::InvalidInput, [&] { read_clump(five); }),
+                      "not a table of spheres"));
+  }
   EXPECT_FALSE(is_clump_file(file("red.csv", "x,y,z,r,g,b\n0,0,0,1,2,3\n")));
   EXPECT_TRUE(has_sphere_heading(file("named.txt", "# clump\nx y z r\n0 0 0 1\n")));
   EXPECT_FALSE(has_sphere_heading(file("grey.txt", "0 0 0 1\n")));
@@ -316,7 +318,8 @@ TEST_F(ClumpFiles, WrongNamesAndContentsAreRefused) {
   EXPECT_FALSE(is_clump_file(file("other.csv", "x,y,z\n1,2,3\n")));
   EXPECT_ERROR(read_clump(path("none.csv")), InputOutput);
   EXPECT_ERROR(read_clump(file("empty.csv", "x,y,z,r\n")), InvalidInput);
-  for (const char* row : {"1,2,3", "1,2,3,0", "1,2,3,-1", "1,2,nan,1", "1,2,3,4,5", "1,2,x,1"}) {
+  for (const char* row :
+       {"1,2,3", "1,2,3,0", "1,2,3,-1", "1,2,nan,1", "1,2,3,4,5", "1,2,x,1", "1,2,\"3,5\",1"}) {
     const std::string name = file("bad.csv", std::string("x,y,z,r\n0,0,0,1\n") + row + "\n");
     const std::string sentence = test::refusal(ErrorCode::InvalidInput, [&] { read_clump(name); });
     EXPECT_TRUE(holds(sentence, "Line 3")) << row;

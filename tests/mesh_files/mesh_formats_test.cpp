@@ -727,6 +727,7 @@ TEST_F(MeshFormats, ReadPointsOfTexts) {
             points);
   EXPECT_EQ(read_mesh(file("a.xyz", "1.5, -2, 3\r\n4,5e-1,-6\r\n")).points, points);
   EXPECT_EQ(read_mesh(file("a.csv", "1.5;-2;3\n4;.5;-6\n")).points, points);
+  EXPECT_EQ(read_mesh(file("a.csv", "1,5;-2;3,0\n4;,5;-6\n")).points, points);
   EXPECT_EQ(
       read_mesh(file("a.csv", "\"name\",\"Z\",\"X\",,\"Y\"\na,3,1.5,,-2\n,-6,4,,0.5\n")).points,
       points);

@@ -313,7 +313,7 @@ void read_units(const std::vector<TableHeading>& headings, SphereColumns& column
   columns.radius_unit = of_radius;
 }
 
-/// Returns nothing if the first line is no heading of spheres and not four numbers.
+/// Returns nothing if the first line is no heading of spheres and not four numbers or more.
 std::optional<SphereColumns> columns_of(const std::string& first_line) {
   const std::vector<TableHeading> headings = read_headings(first_line);
   SphereColumns columns;
@@ -323,7 +323,7 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
   int diameters = 0;
   for (std::size_t k = 0; k < headings.size(); ++k) {
     const std::string name = lower_case(headings[k].name);
-    if (number_in(name)) ++numbers;
+    if (number_in_row(name, first_line)) ++numbers;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "xyz"[axis]);
       if (name == letter || name == "c" + letter || name == "center_" + letter ||
@@ -349,7 +349,7 @@ std::optional<SphereColumns> columns_of(const std::string& first_line) {
     read_units(headings, columns);
     return columns;
   }
-  if (numbers != 4 || headings.size() != 4) return {};
+  if (numbers < 4 || headings.size() != numbers) return {};
   columns.of = {0, 1, 2, 3};
   columns.has_heading = false;
   columns.has_diameter = false;
@@ -397,7 +397,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
   std::string line;
   std::size_t number = 0;
   const std::optional<SphereColumns> columns = next_columns(stream, line, number);
-  if (!columns) {
+  if (!columns || (!columns->has_heading && columns->count != 4)) {
     refuse("\"" + path +
            "\" is not a table of spheres. Its first line must name the columns x, y, z and r (or "
            "radius, or diameter), or be four numbers: x, y, z and the radius.");
@@ -414,7 +414,7 @@ std::vector<Sphere> read_clump(const std::string& path) {
     std::array<double, 4> values{};
     bool is_read = fields.size() == columns->count;
     for (std::size_t k = 0; k < values.size() && is_read; ++k) {
-      const std::optional<double> value = number_in(fields[columns->of[k]]);
+      const std::optional<double> value = number_in_row(fields[columns->of[k]], line);
       is_read = value && std::isfinite(*value);
       if (is_read) values[k] = *value;
     }

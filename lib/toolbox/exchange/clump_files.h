@@ -45,9 +45,9 @@ void write_clump(const std::string& path, const ClumpResult& clump, const FrameO
                  double density = 1.0);
 
 /// Returns whether a file is a table of spheres: its first line, behind comments, names x, y, z and
-/// r, radius or diameter, or is four numbers in a .csv or .multisphere file. Of a radius and a
-/// diameter the radius is used. False if it cannot be read. A .txt file is one, whatever it has,
-/// because no mesh has this ending: read_clump says what is wrong with it.
+/// r, radius or diameter, or is four or more numbers in a .csv or .multisphere file. Of a radius
+/// and a diameter the radius is used. False if it cannot be read. A .txt file is one whatever it
+/// has, as no mesh has this ending: read_clump says what is wrong with it, and with five numbers.
 bool is_clump_file(const std::string& path);
 
 /// Returns whether it is one by its heading: four numbers may be a point and a grey value.

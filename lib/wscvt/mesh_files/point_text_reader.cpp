@@ -61,7 +61,7 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
     if (TextFields(*line).next().front() == '#') continue;
     if (is_first && names_separator(*line)) continue;
     split_fields(*line, fields);
-    if (is_first && !number_in(fields[0]) && !fields[0].empty()) {
+    if (is_first && !number_in_row(fields[0], *line) && !fields[0].empty()) {
       is_first = false;
       read_heading(*line, reader, columns);
       has_heading = true;
@@ -69,13 +69,14 @@ void read_point_text(ByteReader& reader, MeshFile& file) {
     }
     is_first = false;
     reader.check_count(mesh.points.size() + 1, "holds more points");
-    const std::optional<double> first = fields.size() > 3 ? number_in(fields[0]) : std::nullopt;
+    const std::optional<double> first =
+        fields.size() > 3 ? number_in_row(fields[0], *line) : std::nullopt;
     const auto number = static_cast<double>(mesh.points.size());
     if (first == number || first == number + 1.0) ++counted;
     Vector3 point;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view field = columns[axis] < fields.size() ? fields[columns[axis]] : "";
-      const std::optional<double> value = number_in(field);
+      const std::optional<double> value = number_in_row(field, *line);
       if (!value) {
         reader.fail_line((field.empty() ? "lacks" : "has " + in_quotes(field) + " instead of") +
                          std::string(" the coordinate ") + "xyz"[axis] + " of a point");

@@ -67,6 +67,13 @@ void split_fields(std::string_view line, std::vector<std::string_view>& fields) 
   if (fields.empty()) fields.emplace_back();
 }
 
+std::optional<double> number_in_row(std::string_view field, std::string_view line) {
+  std::string text(field);
+  const std::size_t comma = text.find(',');
+  if (comma != std::string::npos && separator_in(line, ";") != '\0') text[comma] = '.';
+  return number_in(text);
+}
+
 bool names_separator(std::string_view line) { return lower_case(line.substr(0, 4)) == "sep="; }
 
 std::string shown(std::string_view field) {

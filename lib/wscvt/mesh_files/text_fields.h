@@ -67,6 +67,9 @@ char separator_in(std::string_view line, std::string_view separators);
 /// blanks: there only that of a line without any.
 void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
+/// Returns the number in a field of split_fields. Between semicolons its mark may be a comma.
+std::optional<double> number_in_row(std::string_view field, std::string_view line);
+
 /// Returns whether a line names the separator of those below, "sep=;", as spreadsheets write it
 /// above a heading.
 bool names_separator(std::string_view line);
