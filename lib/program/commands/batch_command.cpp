@@ -69,7 +69,7 @@ CLI::App& add_arguments(CLI::App& program, BatchArguments& arguments) {
   add_choice(app, arguments.job.shapes.described);
   add_remesh_arguments(app, arguments.job.remesh);
   add_simulation_arguments(app, arguments.job);
-  arguments.sample.format = app.get_option("--format");
+  arguments.sample.format = app.get_option("--format")->group(finer_settings);
   add_engine_arguments(app, arguments.sample, "level sets", EngineShapes::LevelSets);
   CLI::Option* nodes = app.get_option("--" + std::string(node_count_option.key));
   nodes->description(nodes->get_description() + ". Several, such as 100,300, get one folder each");
