@@ -16,7 +16,7 @@ rm -rf "$work"
 mkdir -p "$work/source"
 trap 'rm -rf "$work"' EXIT
 # pip builds beside setup.py.
-cp -r "$root/CMakeLists.txt" "$root/lib" "$work/source"
+cp -r "$root/CMakeLists.txt" "$root/LICENSE" "$root/lib" "$work/source"
 # What is missing is named. The environment's folder of programs has no CMake.
 /usr/bin/python3 -m venv --system-site-packages "$work/environment"
 ! env PATH="$work/environment/bin" "$work/environment/bin/python" -m pip install --no-index \
