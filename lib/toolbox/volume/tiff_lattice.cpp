@@ -7,6 +7,7 @@
 #include "toolbox/volume/tiff_pages.h"
 #include "toolbox/volume/volume_formats.h"
 #include "wscvt/base/text_format.h"
+#include "wscvt/mesh_files/table_heading.h"
 #include "wscvt/mesh_files/text_fields.h"
 
 namespace wscvt {
