@@ -420,3 +420,18 @@ def test_rockable_gets_the_grains_within_walls_that_look_outwards(tmp_path, load
     assert float(laws["en2Contact"]) == pytest.approx(0.3 ** 2) and float(laws["muContact"]) == 0.4
     least = min(g.mass for g in scene.grains)
     assert float(values["dt"]) == pytest.approx(0.05 * math.sqrt(least / float(laws["knContact"])))
+
+
+def test_yade_gets_a_level_set_of_each_size_in_any_unit(tmp_path, load):
+    """Scans in nanometres with a curve in metres are 1e9 times smaller in the packing, each by its own number."""
+    folder = make_folder(tmp_path / "run", "run_yade.py", parts=True, scale=1e9)
+    (folder / "sizes.csv").write_text("diameter,finer\n1,0\n3,100\n")
+    # Names of Yade that take anything; the script ends where the engine would begin.
+    names = sorted({*re.findall(r"\b(?:[A-Z]\w+|O)\b", (folder / "run.py").read_text()), "geom", "log", "polyhedra_utils",
+                    "utils"})
+    (folder / "yade.py").write_text("from unittest.mock import MagicMock\n__all__ = %r\n"
+                                    "globals().update((name, MagicMock()) for name in __all__)\n"
+                                    "O.run.side_effect = SystemExit\n" % names)
+    (folder / "yade_level_sets.py").write_text("from unittest.mock import MagicMock\nGrainContacts = MagicMock()\n\n\n"
+                                               "def Grain(nodes, grid, scale):\n    print(scale)\n    return MagicMock()\n")
+    assert list(map(float, run(folder).split())) == [grain.scale for grain in load(folder).Scene().grains]

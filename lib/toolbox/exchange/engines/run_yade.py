@@ -82,7 +82,7 @@ made = {}
 def level_set(grain):
     """Adds a body; those of the same shape and size share a grid."""
     name = grain.shape.name
-    key = name, round(grain.scale, 9)
+    key = name, grain.scale
     if key not in made:
         made[key] = yade_level_sets.Grain(str(packing.FOLDER / "node-table" / (name + ".csv")),
                                           str(packing.FOLDER / "sdf" / (name + ".npy")), grain.scale)
