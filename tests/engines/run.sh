@@ -102,7 +102,7 @@ packing yade_polyhedra Yade 6 .4 .85 convex "my scans" -k 1 --faces 30 --size 0.
 packing yade_level_sets Yade 20 .4 .8 batch "my scans" -n 100 --size 20 --engine yade
 packing yade_level_sizes Yade 20 .4 .85 batch "my scans" -n 100 --size-curve curve.csv --engine yade
 packing lammps LAMMPS 120 .4 .65 clump "my scans" -k 10 --size-curve curve.csv --engine lammps
-container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 20 --engine liggghts
+container=cylinder packing liggghts LIGGGHTS 40 .4 .65 clump "my scans" -k 10 --size 0.0001 --engine liggghts
 packing mujoco MuJoCo 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine mujoco
 container=cylinder packing bullet Bullet 40 .4 .65 convex "my scans" -k 4 -n 300 --faces 60 --size 0.02 --engine bullet
 # Sizes of the packing follow the curve: 60 % of the mass is finer than 0.02. One of 120 grains has up to 3 %.

@@ -301,6 +301,8 @@ def test_liggghts_gets_a_template_of_each_shape_and_size(tmp_path, load):
         name = "long" if len(spheres) == 2 else "round"
         np.testing.assert_allclose(spheres, CLUMPS[name][0])
         assert int(words[words.index("nspheres") + 1]) == len(spheres)
+        # LIGGGHTS refuses templates and regions below it, or below 1e-12.
+        assert 0 < float(words[words.index("volume_limit") + 1]) < 4 / 3 * math.pi * spheres[:, 3].min() ** 3
         assert float(words[words.index("mass") + 1]) == pytest.approx(DENSITY * CLUMPS[name][1])
         at = words.index("inertia_tensor")
         tensor = [float(v) for v in words[at + 1:at + 7]]

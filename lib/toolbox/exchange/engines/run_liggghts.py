@@ -38,16 +38,17 @@ def primes(start):
 
 
 seed, lines, mixture = primes(10007), [], ""
+smallest = min(grain.scale * grain.shape.spheres[:, 3].min() for grain in scene.grains)
+limit = float(smallest ** 3)  # LIGGGHTS's own, 1e-12, refuses fine sand in metres
 for k, (key, number) in enumerate(templates.items()):
     grain = by_key[key]
     grain.place, grain.turn = np.zeros(3), (1, 0, 0, 0)
     np.savetxt("template_%d.spheres" % k, grain.spheres(), fmt="%.17g")
-    lines.append("fix t%d all particletemplate/multisphere %d atom_type 1 density constant %r nspheres %d ntry 100000 "
-                 "spheres file template_%d.spheres scale 1.0 type %d mass %r inertia_tensor %r 0 0 %r 0 %r use_density" %
-                 (k, next(seed), given["density"], len(grain.shape.spheres), k, k + 1, grain.mass,
-                  *map(float, grain.moments)))
+    lines.append("fix t%d all particletemplate/multisphere %d atom_type 1 volume_limit %r density constant %r nspheres %d "
+                 "ntry 100000 spheres file template_%d.spheres scale 1.0 type %d mass %r inertia_tensor %r 0 0 %r 0 %r "
+                 "use_density" % (k, next(seed), limit, given["density"], len(grain.shape.spheres), k, k + 1,
+                                  grain.mass, *map(float, grain.moments)))
     mixture += " t%d %r" % (k, number / len(scene.grains))
-smallest = min(grain.scale * grain.shape.spheres[:, 3].min() for grain in scene.grains)
 shear = young / (2 * (1 + poisson))
 step = 0.15 * math.pi * smallest * math.sqrt(given["density"] / shear) / (0.1631 * poisson + 0.8766)
 steps = round(scene.longest_time() / step)
@@ -69,7 +70,7 @@ soft_particles yes
 hard_particles yes
 units si
 region box block {edge_low!r} {edge!r} {edge_low!r} {edge!r} {below!r} {top!r} units box
-region column {region} units box
+region column {region} units box volume_limit {limit!r}
 create_box 1 box
 neighbor {skin!r} bin
 neigh_modify delay 0
@@ -92,7 +93,7 @@ thermo {often}
 dump last all custom {often} packing.spheres id_multisphere x y z radius vx vy vz
 run {steps}
 """.format(edge_low=-edge, edge=edge, below=-scene.mean_diameter, top=scene.top + scene.mean_diameter, region=region,
-           skin=0.5 * smallest, young=young, poisson=poisson, restitution=given["restitution"],
+           limit=limit, skin=0.5 * smallest, young=young, poisson=poisson, restitution=given["restitution"],
            friction=given["friction"], model=model, step=step, gravity=scene.gravity, walls="\n".join(walls),
            templates="\n".join(lines), mixture_seed=next(seed), number=len(templates), mixture=mixture,
            source_seed=next(seed), count=len(scene.grains), often=max(1, steps // 40), steps=steps))
