@@ -115,7 +115,13 @@ for text in open("packing.spheres").read().split("ITEM: TIMESTEP\n")[1:]:
 rows = [np.array(body)[:, :4] for _, body in sorted(moved.items())]
 # LIGGGHTS numbers grains by itself: each is the template whose radii it has.
 radii = {key: np.sort(grain.scale * grain.shape.spheres[:, 3]) for key, grain in by_key.items()}
-scene.grains = [by_key[min(radii, key=lambda key: (len(radii[key]) != len(body), abs(np.sort(body[:, 3])[-1] - radii[key][-1])))]
-                for body in rows]
+
+
+def distance(key, body):
+    alike = len(radii[key]) == len(body)
+    return np.abs(np.sort(body[:, 3]) - radii[key]).max() if alike else math.inf
+
+
+scene.grains = [by_key[min(radii, key=lambda key: distance(key, body))] for body in rows]
 places = [np.average(body[:, :3], weights=body[:, 3] ** 3, axis=0) for body in rows]
 packing.finish("LIGGGHTS", scene, rows, places, kinetic, packing.processor_time())
