@@ -136,10 +136,18 @@ TEST_F(Bodies, SaysWhichCommandTakesAnotherInput) {
   expect_refused("grow", {{"volume.vtk -o out", 2, "wscvt extract VOLUME OUT"}}, {});
   fs::create_directory(path("ct.zarr"));
   std::ofstream(path("ct.zarr/.zarray")) << "{}";
-  expect_refused("remesh", {{"ct.zarr o.ply", 2, "wscvt batch VOLUME -o OUT"}}, {});
-  for (const char* command : {"batch", "clump", "convex"}) {
-    expect_refused(command, {{"ct.zarr -o out", 1, "numpy.save(\"labels.npy\", zarr.open("}}, {});
+  const std::string way = "numpy.save(\"labels.npy\", zarr.open(";
+  for (const char* command : {"batch", "clump", "convex", "fragment", "grow"}) {
+    expect_refused(command, {{"ct.zarr -o out", 1, way}}, {});
   }
+  expect_refused("remesh", {{"ct.zarr o.ply", 1, way}}, {"o.ply"});
+  expect_refused("describe",
+                 {{"ct.zarr", 1, way},
+                  {"volume.vtk scans/a.ply --parts -o out", 2, "wscvt batch VOLUME -o OUT"},
+                  {"scans/a.ply volume.vtk --parts", 2, "wscvt batch VOLUME -o OUT"}},
+                 {"out"});
+  expect_refused("sample", {{"ct.zarr", 1, way}, {"volume.vtk", 2, "wscvt batch VOLUME -o OUT"}},
+                 {});
   expect_refused("batch", {{"nothere -o out", 2, "There is no file and no folder"}},
                  {"out/grains.csv"});
   expect_refused("sample", {{"/dev/zero", 1, "is a folder or a device"}}, {});

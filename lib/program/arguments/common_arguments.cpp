@@ -43,15 +43,9 @@ void add_format_argument(CLI::App& app, std::string& format) {
 }
 
 void check_mesh_input(const std::string& path) {
+  refuse_volume_input(path);
   std::error_code error;
-  const bool is_folder = std::filesystem::is_directory(path, error);
-  if (is_volume(path) && (is_folder || std::filesystem::exists(path, error))) {
-    refuse("\"" + path +
-           "\" is a volume, not a mesh. wscvt batch VOLUME -o OUT remeshes its labels, and wscvt "
-           "extract VOLUME OUT writes a mesh of each. Grey values become labels by wscvt segment "
-           "VOLUME LABELS.nrrd first.");
-  }
-  if (is_folder) {
+  if (std::filesystem::is_directory(path, error)) {
     refuse(
         "\"" + path +
         "\" is a folder. wscvt batch FOLDER -o OUT remeshes all meshes in it; this command takes "

@@ -109,8 +109,8 @@ void compare_parts(const DescribeArguments& arguments) {
     if (arguments.reference.empty()) {
       refuse(mention("parts") + " compares the parts with their grain. Give its mesh too.");
     }
-    check_mesh_format(arguments.grain, MeshUse::Read);
-    check_mesh_format(arguments.reference, MeshUse::Read);
+    check_mesh_input(arguments.grain);
+    check_mesh_input(arguments.reference);
     check_files(arguments);
     for (const std::string& report : arguments.common.reports) check_parts_report(report);
   });
@@ -135,6 +135,7 @@ void describe_labels(const DescribeArguments& arguments) {
   std::unique_ptr<LabelVolume> labels;
   std::unique_ptr<LabelVolume> scan;
   checked([&] {
+    labels = open_volume(arguments.grain, arguments.choice);
     if (arguments.folder.empty()) {
       refuse("A volume of labels needs a folder for its contacts. Give it with " +
              mention("output") + ".");
@@ -145,7 +146,6 @@ void describe_labels(const DescribeArguments& arguments) {
     if (!arguments.common.reports.empty()) {
       refuse("The page of the contacts is in the folder. Leave out " + mention("report") + ".");
     }
-    labels = open_volume(arguments.grain, arguments.choice);
     if (!arguments.reference.empty()) scan = open_volume(arguments.reference, arguments.choice);
   });
   CommonArguments common = arguments.common;
@@ -216,10 +216,10 @@ CLI::App& add_arguments(CLI::App& program, DescribeArguments& arguments) {
 }
 
 int run(const DescribeArguments& arguments) {
-  if (is_volume(arguments.grain)) {
-    describe_labels(arguments);
-  } else if (arguments.parts) {
+  if (arguments.parts) {
     compare_parts(arguments);
+  } else if (is_volume(arguments.grain)) {
+    describe_labels(arguments);
   } else {
     describe_mesh(arguments);
   }

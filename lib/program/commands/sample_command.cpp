@@ -14,6 +14,7 @@
 #include "toolbox/sample/detail_levels.h"
 #include "toolbox/sample/grain_sample.h"
 #include "toolbox/sample/sample_files.h"
+#include "toolbox/volume/open_volume.h"
 #include "wscvt/base/error.h"
 #include "wscvt/base/text_format.h"
 #include "wscvt/report/report.h"
@@ -119,6 +120,7 @@ int run(const SampleArguments& arguments) {
     for (const std::string& report : arguments.reports) report_format(report);
     std::vector<NamedFile> inputs;
     for (const std::string& path : arguments.samples) {
+      refuse_volume_input(path);
       if (!fs::is_directory(path)) inputs.push_back({"a table", path});
     }
     check_output_paths(inputs, named_reports(arguments.reports));

@@ -216,6 +216,14 @@ std::string way_from(const std::string& path) {
   return "";
 }
 
+/// Throws Error(InputOutput) for a format that is not read, with the way from it.
+void refuse_unread(const std::string& path) {
+  std::error_code error;
+  const bool is_read = fs::is_directory(path, error) ? is_stack(path) : format_of(path) != nullptr;
+  const std::string way = is_read ? "" : way_from(path);
+  if (!way.empty()) refuse_volume(path, way);
+}
+
 /// Says in one sentence what was read, and warns of voxels that are long beyond any scan's.
 void describe(LabelVolume& volume, const VolumeChoice& choice) {
   const VolumeGeometry& geometry = volume.geometry();
@@ -333,19 +341,27 @@ bool is_volume(const std::string& path) {
   return is_read || !way_from(path).empty();
 }
 
+void refuse_volume_input(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error) || !is_volume(path)) return;
+  refuse_unread(path);
+  refuse("\"" + path +
+         "\" is a volume, not a mesh or a table. wscvt batch VOLUME -o OUT remeshes and measures "
+         "its labels, and wscvt sample OUT then has their statistics. wscvt extract VOLUME OUT "
+         "writes a mesh of each. Grey values become labels by wscvt segment VOLUME LABELS.nrrd "
+         "first.");
+}
+
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {
   check_voxel_size(choice);
   std::error_code error;
   std::unique_ptr<LabelVolume> volume;
+  refuse_unread(path);
   if (fs::is_directory(path, error)) {
-    const std::string way = is_stack(path) ? "" : way_from(path);
-    if (!way.empty()) refuse_volume(path, way);
     volume = open_stack(path, choice);
   } else {
     const Format* const format = format_of(path);
     if (format == nullptr) {
-      const std::string way = way_from(path);
-      if (!way.empty()) refuse_volume(path, way);
       refuse("\"" + path +
              "\" does not have the ending of a volume. Give a .tif, .nrrd, .nhdr, .mhd, .mha, "
              ".vti, .vtk, "
