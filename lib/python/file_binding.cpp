@@ -14,6 +14,8 @@
 
 #include "bindings.h"
 #include "conversion.h"
+#include "toolbox/exchange/clump_files.h"
+#include "toolbox/volume/open_volume.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 #include "wscvt/measures/carried_attributes.h"
@@ -38,6 +40,12 @@ void bind_files(py::module_& module) {
   module.def(
       "read_mesh",
       [](const std::filesystem::path& path) {
+        refuse_volume_input(path.string());
+        if (!is_mesh_file(path.string()) && has_sphere_heading(path.string())) {
+          refuse("\"" + path.string() +
+                 "\" is a table of spheres, as of a clump, not a mesh. The program measures it: "
+                 "wscvt describe CLUMP.csv SCAN.");
+        }
         const IndexedMesh mesh = warned(read_mesh_file(path.string()));
         return std::make_pair(array_of(mesh.points), array_of(mesh.triangles));
       },

@@ -18,6 +18,7 @@
 #include "conversion.h"
 #include "toolbox/report/sample_report.h"
 #include "toolbox/sample/sample_files.h"
+#include "toolbox/volume/open_volume.h"
 #include "work.h"
 #include "wscvt/base/error.h"
 
@@ -67,7 +68,10 @@ GrainTable table_of(TableParts parts) {
 
 SampleTables tables_of(NamedSample& sample, const Execution& execution) {
   auto& [name, path, parts] = sample;
-  if (!parts) return read_sample(path, execution);
+  if (!parts) {
+    refuse_volume_input(path);
+    return read_sample(path, execution);
+  }
   SampleTables tables;
   tables.tables.push_back(table_of(std::move(*parts)));
   return tables;

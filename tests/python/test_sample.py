@@ -65,6 +65,23 @@ def test_a_family_of_remeshes_has_levels(table):
         wscvt.sample(empty)
 
 
+def test_other_files_are_refused_as_by_the_program(tmp_path):
+    volume = tmp_path / "labels.npy"
+    np.save(volume, np.ones((3, 4, 5), np.uint8))
+    zarr = tmp_path / "ct.zarr"
+    zarr.mkdir()
+    (zarr / ".zarray").write_text("{}")
+    for read in (wscvt.sample, wscvt.read_mesh):
+        with pytest.raises(wscvt.Error, match="wscvt batch VOLUME -o OUT"):
+            read(volume)
+        with pytest.raises(wscvt.Error, match="numpy.save"):
+            read(zarr)
+    clump = tmp_path / "clump.csv"
+    clump.write_text("x;y;z;r\n0;0;0;1,5\n")
+    with pytest.raises(wscvt.Error, match="wscvt describe CLUMP.csv"):
+        wscvt.describe(clump)
+
+
 def test_columns_have_one_number_for_each_grain():
     sizes = np.arange(1.0, 31.0)
     table = {"axis_i_box": sizes, "volume": sizes ** 3}
