@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "support/made_volume.h"
+
 namespace wscvt::test {
 
 /// How pages of a TIFF are written.
@@ -20,8 +22,9 @@ struct TiffPages {
   bool is_planar = false;  ///< samples one behind the other
   int format = SAMPLEFORMAT_UINT;
   int compression = COMPRESSION_NONE;
-  int rows = 2;  ///< of a strip
-  int tile = 0;  ///< side of a tile; 0: strips
+  int rows = 2;       ///< of a strip
+  bool pads = false;  ///< zeros behind each page, packed by zlib, make one strip of `rows`
+  int tile = 0;       ///< side of a tile; 0: strips
   int photometric = PHOTOMETRIC_MINISBLACK;
   int orientation = ORIENTATION_TOPLEFT;
   int extra = -1;           ///< kind of the last sample, EXTRASAMPLE_...; -1: none is extra
@@ -75,7 +78,12 @@ inline void write_tiff(const std::string& path, const TiffPages& as,
     std::string page = pages[k];
     const int planes = as.is_planar ? as.samples : 1;
     ASSERT_EQ(page.size(), row_bytes * height * static_cast<std::size_t>(planes));
-    if (as.tile == 0) {
+    if (as.pads) {
+      TIFFSetField(file, TIFFTAG_ROWSPERSTRIP, as.rows);
+      page.resize(row_bytes * static_cast<std::size_t>(as.rows));
+      std::string strip = packed(page, false);
+      ASSERT_GT(TIFFWriteRawStrip(file, 0, strip.data(), static_cast<tmsize_t>(strip.size())), 0);
+    } else if (as.tile == 0) {
       TIFFSetField(file, TIFFTAG_ROWSPERSTRIP, as.rows);
       for (int plane = 0; plane < planes; ++plane) {
         for (std::size_t y = 0; y < height; ++y) {

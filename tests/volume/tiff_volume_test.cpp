@@ -723,6 +723,23 @@ TEST_F(TiffVolume, ReadsNumbersOfFewerThanEightBits) {
   }
 }
 
+// As some writers pad the last strip of a page. Each page ends in more rows of background than the
+// page before, whose labels must not appear in them.
+TEST_F(TiffVolume, ReadsStripsThatArePaddedToWholeOnes) {
+  make({37, 21, 3});
+  for (int z = 0; z < 3; ++z) {
+    const auto page = made_.labels.begin() + std::ptrdiff_t{37} * 21 * z;
+    std::fill(page + std::ptrdiff_t{37} * (21 - 6 * z), page + std::ptrdiff_t{37} * 21, 0U);
+  }
+  TiffPages stack = as();
+  stack.compression = COMPRESSION_ADOBE_DEFLATE;
+  stack.pads = true;
+  for (const int rows : {21, 32, 64}) {
+    stack.rows = rows;
+    expect_made_of(stack, pages());
+  }
+}
+
 TEST_F(TiffVolume, RefusesWhatMakesNoLabels) {
   TiffPages stack = as();
   stack.bits = 8;

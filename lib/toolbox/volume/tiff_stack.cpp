@@ -81,6 +81,12 @@ class TiffStack : public LabelVolume {
   }
 
   void begin_page() {
+    // Some writers pad the last strip to a whole one. libdeflate then leaves rows unwritten.
+    std::uint16_t compression = COMPRESSION_NONE;
+    TIFFGetFieldDefaulted(file_->get(), TIFFTAG_COMPRESSION, &compression);
+    if (compression == COMPRESSION_ADOBE_DEFLATE || compression == COMPRESSION_DEFLATE) {
+      TIFFSetField(file_->get(), TIFFTAG_DEFLATE_SUBCODEC, DEFLATE_SUBCODEC_ZLIB);
+    }
     std::uint32_t rows = 0;
     tile_width_ = 0;
     row_bytes_ = static_cast<std::size_t>(TIFFScanlineSize64(file_->get()));
