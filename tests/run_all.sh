@@ -115,7 +115,7 @@ for step in "$@"; do
       tests/wine.sh build/release/lib/wscvt build/windows/lib/wscvt.exe meshes build/wine ;;
     engines)
       # After release. Yade, LIGGGHTS, LAMMPS, Gmsh and VTK are 1 GB, so a step of its own.
-      tests/install_packages.sh yade liggghts lammps gmsh calculix-ccx python3-vtk9 python3-numpy libmujoco-dev \
+      tests/install_packages.sh yade liggghts lammps gmsh calculix-ccx python3-vtk9 python3-numpy python3-scipy libmujoco-dev \
         libbullet-dev python3-matplotlib
       tests/engines/run.sh build/release/lib/wscvt build/engines ;;
     package)
