@@ -625,7 +625,7 @@ TEST_F(MeshFormats, ReadsEveryFormOfVtp) {
       };
       std::string text =
           std::string(
-              "<?xml version=\"1.0\"?><!-- a > comment -->\n<VTKFile type=\"PolyData\" "
+              "<?xml version=\"1.0\"?><!-- <a> <Piece> -->\n<VTKFile type=\"PolyData\" "
               "byte_order=\"LittleEndian\"") +
           (is_packed ? " compressor=\"vtkZLibDataCompressor\"" : "") +
           "><PolyData>\n<Piece NumberOfPoints=\"4\" NumberOfPolys=\"2\" "

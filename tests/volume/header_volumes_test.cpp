@@ -345,7 +345,7 @@ TEST_F(HeaderVolumes, ReadsTheChosenArrayOfAVti) {
                  vti(
                      "",
                      "<DataArray type=\"UInt16\" Name=\"grey\" format=\"appended\" "
-                     "offset=\"0\"/><DataArray type=\"Float64\" Name=\"labels\" "
+                     "offset=\"0\"/><DataArray type=\"Float64\" Name=\"a&lt;&amp;lt;\" "
                      "format=\"appended\" offset=\"214\"/>",
                      "<AppendedData encoding=\"raw\">_" + with_length(grey.bytes<std::uint16_t>()) +
                          [&] {
@@ -357,7 +357,7 @@ TEST_F(HeaderVolumes, ReadsTheChosenArrayOfAVti) {
                            return with_length(data);
                          }() +
                          "</AppendedData>"),
-                 array("labels"));
+                 array("a<&lt;"));
   EXPECT_EQ(labels_of("a.vti", array("grey")), labels(1000));
   // As text, and more numbers a voxel than one.
   write(

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "toolbox/volume/byte_source.h"
+#include "toolbox/volume/voxel_bytes.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/mesh_files/text_fields.h"
 

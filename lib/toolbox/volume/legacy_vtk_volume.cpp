@@ -53,9 +53,8 @@ std::uint64_t end_of_numbers(const std::string& path, std::uint64_t begin, std::
   for (;;) {
     const std::size_t got = bytes->read(part.data(), part.size());
     for (std::size_t k = 0; k < got; ++k) {
-      const bool is_blank = part[k] == ' ' || (part[k] >= '\t' && part[k] <= '\r');
-      if (is_in_number && is_blank && --count == 0) return place + k;
-      is_in_number = !is_blank;
+      if (is_in_number && is_blank(part[k]) && --count == 0) return place + k;
+      is_in_number = !is_blank(part[k]);
     }
     place += got;
     if (got < part.size()) return place;

@@ -182,25 +182,6 @@ std::vector<std::pair<std::string, std::uint64_t>> members_of(const std::string&
 }
 #endif
 
-/// Bytes of an array in memory.
-class MemoryBytes : public ByteSource {
- public:
-  MemoryBytes(const void* bytes, std::uint64_t size)
-      : bytes_(static_cast<const char*>(bytes)), size_(size) {}
-
-  std::size_t read(char* bytes, std::size_t count) override {
-    const auto filled = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - next_));
-    std::copy_n(bytes_ + next_, filled, bytes);
-    next_ += filled;
-    return filled;
-  }
-
- private:
-  const char* bytes_;
-  std::uint64_t size_;
-  std::uint64_t next_ = 0;
-};
-
 ShapedVolume shaped(const NumpyHeader& header, const VolumeChoice& choice,
                     const std::string& path) {
   ArrayShape shape;
@@ -234,11 +215,11 @@ std::unique_ptr<LabelVolume> volume_of_array(const VolumeArray& array, const Vol
                                              const std::string& name) {
   const ShapedVolume volume = shaped({array.type, false, array.counts}, choice, name);
   const VoxelType type = numpy_type_of(array.type, name);
-  auto size = static_cast<std::uint64_t>(type.bytes);
-  for (const std::int64_t count : array.counts) size *= static_cast<std::uint64_t>(count);
+  auto size = static_cast<std::size_t>(type.bytes);
+  for (const std::int64_t count : array.counts) size *= static_cast<std::size_t>(count);
+  const std::string_view bytes(static_cast<const char*>(array.numbers), size);
   return volume_of_bytes(
-      volume.geometry, type, volume.picks,
-      [numbers = array.numbers, size] { return std::make_unique<MemoryBytes>(numbers, size); },
+      volume.geometry, type, volume.picks, [bytes] { return std::make_unique<MemoryBytes>(bytes); },
       name);
 }
 

@@ -13,8 +13,8 @@
 #include <memory>
 #include <new>
 
-#include "toolbox/volume/byte_source.h"
 #include "toolbox/volume/volume_formats.h"
+#include "toolbox/volume/voxel_bytes.h"
 #include "toolbox/volume/voxel_rows.h"
 #include "wscvt/mesh_files/text_fields.h"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "toolbox/volume/byte_source.h"
 #include "toolbox/volume/label_volume.h"
 #include "toolbox/volume/volume_choice.h"
+#include "toolbox/volume/voxel_bytes.h"
 #include "toolbox/volume/voxel_type.h"
 
 namespace wscvt {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toolbox/volume/byte_source.h"
+#include "toolbox/volume/voxel_bytes.h"
 
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <boost/endian/conversion.hpp>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -102,91 +100,13 @@ class InflatedBytes : public ByteSource {
   z_stream stream_ = {};
 };
 
-/// The characters of a text, one after the other.
-class Characters {
- public:
-  explicit Characters(std::unique_ptr<ByteSource> text)
-      : text_(std::move(text)), buffer_(block_size / 4) {}
-
-  /// Returns the next character, which stays the next one; -1 at the end.
-  int peek() {
-    if (begin_ == end_) {
-      begin_ = 0;
-      end_ = text_->read(buffer_.data(), buffer_.size());
-      if (end_ == 0) return -1;
-    }
-    return static_cast<unsigned char>(buffer_[begin_]);
-  }
-  int next() {
-    const int c = peek();
-    if (c >= 0) ++begin_;
-    return c;
-  }
-
- private:
-  std::unique_ptr<ByteSource> text_;
-  std::vector<char> buffer_;
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-};
-
-/// Six-bit values of the characters; -1 for other characters.
-constexpr std::array<signed char, 256> base64_values() {
-  std::array<signed char, 256> values{};
-  for (auto& value : values) value = -1;
-  for (std::size_t k = 0; k < 26; ++k) {
-    values['A' + k] = static_cast<signed char>(k);
-    values['a' + k] = static_cast<signed char>(26 + k);
-  }
-  for (std::size_t k = 0; k < 10; ++k) values['0' + k] = static_cast<signed char>(52 + k);
-  values['+'] = 62;
-  values['/'] = 63;
-  return values;
-}
-
-class Base64Bytes : public MadeBytes {
- public:
-  explicit Base64Bytes(std::unique_ptr<ByteSource> text) : text_(std::move(text)) {}
-
- private:
-  /// Four characters are three bytes; the last group of a text may be shorter, padded with "=".
-  bool make(std::vector<char>& made) override {
-    static constexpr std::array<signed char, 256> values = base64_values();
-    if (has_ended_) return false;
-    std::array<int, 4> group{};
-    std::size_t held = 0;
-    std::size_t padding = 0;
-    while (held + padding < 4) {
-      const int c = text_.next();
-      if (c == ' ' || (c >= '\t' && c <= '\r')) continue;
-      const int value = c < 0 ? -1 : values[static_cast<std::size_t>(c)];
-      if (c == '=') {
-        ++padding;
-      } else if (value >= 0 && padding == 0) {
-        group[held++] = value;
-      } else {
-        has_ended_ = true;
-        break;
-      }
-    }
-    const int word = group[0] << 18 | group[1] << 12 | group[2] << 6 | group[3];
-    for (std::size_t k = 1; k < held; ++k) {
-      made.push_back(static_cast<char>(word >> (24 - 8 * static_cast<int>(k)) & 0xff));
-    }
-    return true;
-  }
-
-  Characters text_;
-  bool has_ended_ = false;
-};
-
 class BytesOfNumbers : public MadeBytes {
  public:
   BytesOfNumbers(std::unique_ptr<ByteSource> text, std::string path)
       : text_(std::move(text)), path_(std::move(path)) {}
 
  private:
-  static bool is_between(int c) { return c == ' ' || c == ',' || (c >= '\t' && c <= '\r'); }
+  static bool is_between(int c) { return c == ',' || is_blank(static_cast<char>(c)); }
 
   bool make(std::vector<char>& made) override {
     while (is_between(text_.peek())) text_.next();
@@ -280,41 +200,12 @@ class JoinedBytes : public ByteSource {
 
 }  // namespace
 
-std::size_t MadeBytes::read(char* bytes, std::size_t count) {
-  std::size_t filled = 0;
-  while (filled < count) {
-    if (next_ == made_.size()) {
-      made_.clear();
-      next_ = 0;
-      if (!make(made_)) break;
-    }
-    const std::size_t part = std::min(count - filled, made_.size() - next_);
-    std::copy_n(made_.data() + next_, part, bytes + filled);
-    next_ += part;
-    filled += part;
-  }
-  return filled;
-}
-
-void ByteSource::skip(std::uint64_t count) {
-  std::array<char, 4096> passed{};
-  while (count > 0) {
-    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, passed.size()));
-    if (read(passed.data(), wanted) < wanted) return;
-    count -= wanted;
-  }
-}
-
 std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t offset) {
   return std::make_unique<FileBytes>(path, offset);
 }
 
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path) {
   return std::make_unique<InflatedBytes>(std::move(packed), std::move(path));
-}
-
-std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text) {
-  return std::make_unique<Base64Bytes>(std::move(text));
 }
 
 std::unique_ptr<ByteSource> bytes_of_numbers(std::unique_ptr<ByteSource> text, std::string path) {

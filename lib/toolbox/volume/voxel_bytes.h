@@ -1,40 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "wscvt/mesh_files/byte_source.h"
+
 namespace wscvt {
-
-/// Bytes of a volume in their order. A volume is larger than the memory, and packed data can be
-/// read in no other order: to read them again, they are opened again.
-class ByteSource {
- public:
-  virtual ~ByteSource() = default;
-
-  /// Fills `bytes` and returns the number of bytes read: fewer than `count` only at the end.
-  virtual std::size_t read(char* bytes, std::size_t count) = 0;
-
-  /// Skips bytes; fewer at the end.
-  virtual void skip(std::uint64_t count);
-};
-
-/// Bytes that are made from others, some at a time.
-class MadeBytes : public ByteSource {
- public:
-  std::size_t read(char* bytes, std::size_t count) override;
-
- private:
-  /// Puts the next bytes into `made`, which is empty. Returns false at the end.
-  virtual bool make(std::vector<char>& made) = 0;
-
-  std::vector<char> made_;
-  std::size_t next_ = 0;  ///< position in made_
-};
 
 /// Opens bytes at their beginning.
 using OpenBytes = std::function<std::unique_ptr<ByteSource>()>;
@@ -45,10 +20,6 @@ std::unique_ptr<ByteSource> file_bytes(const std::string& path, std::uint64_t of
 /// Returns the unpacked bytes of consecutive gzip or zlib streams in `packed`. Reading throws
 /// Error(InputOutput), naming the file `path`, if they are damaged.
 std::unique_ptr<ByteSource> inflated_bytes(std::unique_ptr<ByteSource> packed, std::string path);
-
-/// Decodes consecutive base64 texts in `text`, up to the first character that is not base64. Skips
-/// white space.
-std::unique_ptr<ByteSource> base64_bytes(std::unique_ptr<ByteSource> text);
 
 /// Reads the numbers of a text, separated by white space or commas, up to a "<" or the end, as
 /// little-endian doubles of eight bytes. Reading throws Error(InputOutput), naming the file `path`,
