@@ -289,14 +289,8 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
   for (const VoxelCounts& c : walls.corners) corners.emplace_back(c[0], c[1], c[2]);
   walls_.points = corners;
   std::vector<Vector3> moved(corners.size());
-  std::vector<bool> is_narrow(corners.size());
-  for (std::size_t v = 0; v < corners.size(); ++v) is_narrow[v] = is_on_short_loop(v);
-  for (const WallQuad& quad : walls.quads) {
-    const auto& c = quad.corners;
-    if (quad.outer < 0) continue;
-    if (std::any_of(c.begin(), c.end(), [&](std::int32_t v) { return line_of_[v] < 0; })) continue;
-    for (const std::int32_t v : c) is_narrow[v] = true;
-  }
+  std::vector<bool> is_short(corners.size());
+  for (std::size_t v = 0; v < corners.size(); ++v) is_short[v] = is_on_short_loop(v);
   const auto mean_at = [&](std::size_t v) {
     Vector3 sum = Vector3::Zero();
     if (line_of_[v] >= 0) {
@@ -318,9 +312,9 @@ void DenseWalls::smooth(const VoxelWalls& walls, const Groups& quads_at, int pas
     execution.report(static_cast<double>(pass) / passes, "Smoothing the walls");
     for (const double factor : {step, back}) {
       execution.parallel_for_each(corners.size(), smoothing_block, [&](std::size_t v) {
-        // A line has larger steps: it jumps where the steps of its walls meet. But the line about a
-        // wall of few faces would shrink to a point, and lines a face apart would meet.
-        const double most = is_narrow[v] ? 0.2 : places_[v] == WallPlace::Line ? 0.75 : 0.5;
+        // A line has larger steps: it jumps where the steps of its walls meet. The line about
+        // a wall of few faces would shrink to a point.
+        const double most = places_[v] != WallPlace::Line ? 0.5 : is_short[v] ? 0.2 : 0.75;
         const Vector3 to = walls_.points[v] + factor * (mean_at(v) - walls_.points[v]) - corners[v];
         moved[v] = corners[v] + to.cwiseMax(-most).cwiseMin(most);
       });
