@@ -112,6 +112,12 @@ auto of_array(const Work& work) {
   }
 }
 
+/// What to do with a volume's file, where a mesh or a table is needed.
+inline constexpr const char* ways_of_volumes =
+    "wscvt.batch(FILE, output=FOLDER) remeshes and measures its labels, and wscvt.sample(FOLDER) "
+    "then has their statistics. wscvt.extract(ARRAY) returns a mesh of each label of an array, and "
+    "wscvt.segment(ARRAY) makes labels of grey values.";
+
 /// Replaces command-line options in a sentence of the library by argument names: "--edge-ratio"
 /// becomes "edge_ratio". Sentences that show a command stay unchanged.
 std::string in_words_of_python(const Sentence& sentence);

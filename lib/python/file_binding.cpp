@@ -40,7 +40,7 @@ void bind_files(py::module_& module) {
   module.def(
       "read_mesh",
       [](const std::filesystem::path& path) {
-        refuse_volume_input(path.string());
+        refuse_volume_input(path.string(), ways_of_volumes);
         if (!is_mesh_file(path.string()) && has_sphere_heading(path.string())) {
           refuse("\"" + path.string() +
                  "\" is a table of spheres, as of a clump, not a mesh. The program measures it: "

@@ -69,7 +69,7 @@ GrainTable table_of(TableParts parts) {
 SampleTables tables_of(NamedSample& sample, const Execution& execution) {
   auto& [name, path, parts] = sample;
   if (!parts) {
-    refuse_volume_input(path);
+    refuse_volume_input(path, ways_of_volumes);
     return read_sample(path, execution);
   }
   SampleTables tables;

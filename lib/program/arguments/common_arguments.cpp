@@ -43,7 +43,7 @@ void add_format_argument(CLI::App& app, std::string& format) {
 }
 
 void check_mesh_input(const std::string& path) {
-  refuse_volume_input(path);
+  refuse_volume_input(path, ways_of_volumes);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     refuse(

@@ -40,6 +40,12 @@ void add_shard_argument(CLI::App& app, Shard& shard);
 /// Adds --format, the ending of many meshes.
 void add_format_argument(CLI::App& app, std::string& format);
 
+/// What to do with a volume, where a mesh or a table is needed.
+inline constexpr const char* ways_of_volumes =
+    "wscvt batch VOLUME -o OUT remeshes and measures its labels, and wscvt sample OUT then has "
+    "their statistics. wscvt extract VOLUME OUT writes a mesh of each. Grey values become labels "
+    "by wscvt segment VOLUME LABELS.nrrd first.";
+
 /// Throws wscvt::Error(InvalidInput) for an input that is not a mesh, with the command for it: a
 /// volume, a folder, a table of spheres, another ending.
 void check_mesh_input(const std::string& path);

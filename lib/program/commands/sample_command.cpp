@@ -120,7 +120,7 @@ int run(const SampleArguments& arguments) {
     for (const std::string& report : arguments.reports) report_format(report);
     std::vector<NamedFile> inputs;
     for (const std::string& path : arguments.samples) {
-      refuse_volume_input(path);
+      refuse_volume_input(path, ways_of_volumes);
       if (!fs::is_directory(path)) inputs.push_back({"a table", path});
     }
     check_output_paths(inputs, named_reports(arguments.reports));

@@ -341,15 +341,11 @@ bool is_volume(const std::string& path) {
   return is_read || !way_from(path).empty();
 }
 
-void refuse_volume_input(const std::string& path) {
+void refuse_volume_input(const std::string& path, const std::string& ways) {
   std::error_code error;
   if (!fs::exists(path, error) || !is_volume(path)) return;
   refuse_unread(path);
-  refuse("\"" + path +
-         "\" is a volume, not a mesh or a table. wscvt batch VOLUME -o OUT remeshes and measures "
-         "its labels, and wscvt sample OUT then has their statistics. wscvt extract VOLUME OUT "
-         "writes a mesh of each. Grey values become labels by wscvt segment VOLUME LABELS.nrrd "
-         "first.");
+  refuse("\"" + path + "\" is a volume, not a mesh or a table. " + ways);
 }
 
 std::unique_ptr<LabelVolume> open_volume(const std::string& path, const VolumeChoice& choice) {

@@ -16,9 +16,10 @@ namespace wscvt {
 /// with the way to one of these formats.
 bool is_volume(const std::string& path);
 
-/// Throws Error for a volume that exists, where a mesh or a table is needed: InvalidInput with the
-/// commands for volumes, or InputOutput with the way to a format that is read.
-void refuse_volume_input(const std::string& path);
+/// Throws Error for a volume that exists, where a mesh or a table is needed: InvalidInput with
+/// `ways`, sentences that say what to do with a volume, or InputOutput with the way to a format
+/// that is read.
+void refuse_volume_input(const std::string& path, const std::string& ways);
 
 /// Opens a volume of labels: whole numbers of 1 to 64 bits, or floats that are whole. The ending
 /// gives the format; lib/doc/files.md has the table of what is read of each. `choice` selects a
