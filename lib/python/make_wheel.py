@@ -80,7 +80,7 @@ def headers_on_path(python):
 
 def build_modules(build):
     """Builds the module for each Python and returns the files."""
-    configure(build)
+    configure(build, "-UWSCVT_PYTHON_OTHER_HEADERS")  # of an earlier wheel
     own = re.search(r"^PYTHON_MODULE_EXTENSION.*cpython-3(\d+)", (build / "CMakeCache.txt").read_text(), re.M)[1]
     archive = [packages_of(build.parent / f"python-headers-{suite}", suite, packages) / "usr" / "include"
                for suite, packages in OTHER_PYTHONS.items()]
