@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module: arrays in and out, options by name, reports, progress, errors."""
 import ast
+import base64
 import gc
 import html
 import json
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import threading
 import warnings
+import zlib
 
 import numpy as np
 import pytest
@@ -553,6 +555,17 @@ def test_a_batch_of_a_volume_is_that_of_the_program(tmp_path, monkeypatch):
     assert sorted(path.name for path in pathlib.Path("python").iterdir()) == names
     for name in names:
         assert pathlib.Path("python", name).read_bytes() == pathlib.Path("program", name).read_bytes(), name
+    # As VTK packs it: number and sizes of blocks, then the blocks, each in base64.
+    packed = zlib.compress(volume.tobytes())
+    data = b"".join(base64.b64encode(part) for part in (
+        np.array([1, volume.nbytes, 0, len(packed)], "<u4").tobytes(), packed))
+    pathlib.Path("b.vti").write_bytes(
+        b'<VTKFile type="ImageData" byte_order="LittleEndian" header_type="UInt32" compressor="vtkZLibDataCompressor">'
+        b'<ImageData WholeExtent="0 40 0 24 0 24" Origin="0 0 0" Spacing=".5 .5 .5"><Piece Extent="0 40 0 24 0 24">'
+        b'<CellData><DataArray type="UInt16" Name="labels" format="binary">' + data +
+        b"</DataArray></CellData></Piece></ImageData></VTKFile>")
+    wscvt.batch("b.vti", 60, output="vti", smoothing=10)
+    assert pathlib.Path("vti/4.ply").read_bytes() == pathlib.Path("python/b-4.ply").read_bytes()
     # The module has no library of this format; what it says was done above.
     pathlib.Path("a.tif").write_bytes(b"II*\0")
     with pytest.raises(OSError, match="as Python's module always is. Save the volume as .nrrd or .npy"):

@@ -125,21 +125,19 @@ TEST(SegmentationDoubts, PartsThatAreLostAreOfTheMaterial) {
 
 TEST(SegmentationDoubts, CutOffValuesAreOfTheSideThatHasThem) {
   for (const bool is_dark : {false, true}) {
-    Segmentation found = plain_segmentation();
-    found.is_dark = is_dark;
-    found.cut_off.least = 0.3;
-    std::string text = doubts_text(found);
-    EXPECT_TRUE(holds(text, std::string("30 % of the voxels of the ") +
-                                (is_dark ? "grains" : "space between the grains") +
-                                " have one value, the least"));
-    // The void that is cut off is brighter than it was, so that half way is too: small grains.
-    EXPECT_TRUE(holds(text, is_dark ? "come out too large" : "come out too small")) << text;
-    found.cut_off = {0.0, 0.2, false};
-    text = doubts_text(found);
-    EXPECT_TRUE(holds(text, std::string("20 % of the voxels of the ") +
-                                (is_dark ? "space between the grains" : "grains") +
-                                " have one value, the largest"));
-    EXPECT_TRUE(holds(text, is_dark ? "come out too small" : "come out too large")) << text;
+    for (const bool is_least : {false, true}) {
+      Segmentation found = plain_segmentation();
+      found.is_dark = is_dark;
+      (is_least ? found.cut_off.least : found.cut_off.largest) = 0.3;
+      const std::string text = doubts_text(found);
+      const bool of_grains = is_dark == is_least;
+      EXPECT_TRUE(holds(text, std::string("30 % of the voxels of the ") +
+                                  (of_grains ? "grains" : "space between the grains") +
+                                  " have one value, the " + (is_least ? "least" : "largest")))
+          << text;
+      // A void that is cut off is nearer to the grains than it was, so that half way is too.
+      EXPECT_TRUE(holds(text, of_grains ? "come out too large" : "come out too small")) << text;
+    }
   }
 }
 

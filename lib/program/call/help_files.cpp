@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include <sstream>
 #include <string>
 #include <string_view>

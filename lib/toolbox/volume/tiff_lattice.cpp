@@ -91,8 +91,9 @@ void take_unit_of_page(const Vector3& per_cm, TiffLayout& layout, Vector3& size)
   if (!is_taken) return;
   size.head(2) = taken.head(2);
   layout.notes.push_back(
-      "The resolution was taken per cm or inch, as the TIFF says: in " + layout.unit +
-      ", as ImageJ notes it, the voxels would be flatter. If this is wrong, give the size by " +
+      "The resolution was taken per cm or inch, as the TIFF says: in " + layout.unit + ", as " +
+      layout.writer +
+      " notes it, the voxels would be flatter. If this is wrong, give the size by " +
       mention("voxel-size", "X,Y,Z") + ".");
 }
 }  // namespace

@@ -14,6 +14,7 @@
 namespace wscvt {
 
 // VTK's files in XML: meshes in memory, and volumes larger than it.
+// https://docs.vtk.org/en/latest/vtk_file_formats/
 
 using XmlAttributes = std::map<std::string, std::string>;
 
@@ -41,7 +42,8 @@ struct VtkXml {
   bool is_whole = false;  ///< false: the rest is cut, or not such XML
 };
 
-/// Reads the tags up to the appended data, which need not be XML.
+/// Reads the tags up to the appended data, which need not be XML. Does not throw for other text,
+/// see is_whole, but what `source` throws.
 VtkXml read_vtk_xml(std::unique_ptr<ByteSource> source);
 
 /// Returns the order of the bytes of numbers, from the attributes of VTKFile.
@@ -67,7 +69,8 @@ struct VtkPacking {
 
 /// Returns the bytes of an array that begins where `stored` does, and their number, as the lengths
 /// before it say. `left`: the number of bytes in `stored`. Sizes that no packing can reach are
-/// refused before memory is allocated for them. If it is not packed, more bytes may follow.
+/// refused before memory is allocated for them. If it is not packed, more bytes may follow. Throws
+/// what packing.refuse does, now or as it is read.
 std::unique_ptr<ByteSource> vtk_array_bytes(std::unique_ptr<ByteSource> stored, std::uint64_t left,
                                             bool is_base64, const VtkPacking& packing,
                                             std::uint64_t& size);
